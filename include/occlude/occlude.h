@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// occlude: which of your objects can the camera see? Boxes in, a visibility mask out.
+///
+/// **Units.** World units are yours (metres, say); nothing in the library knows a scale. Positions
+/// are floats up to OCC_MAX_COORDINATE; an eye is three doubles. Denormal numbers are numbers.
+///
+/// **Handedness.** Any. Boxes may be mirrored, and the camera is only a matrix.
+///
+/// **Matrices** are `float[16]`, column-major, for column vectors: element (row r, column c) is
+/// m[4 * c + r], and clip = view_projection * world. That is what OpenGL, cglm and most engines
+/// hold in memory; transpose a row-major one.
+///
+/// **Depth.** Clip x and y run over [-w, w]. Clip z runs over [-w, w], [0, w], or [w, 0]
+/// (reversed), as occ_camera_desc says. The far plane may be infinite.
+///
+/// **What is promised.** An object is reported hidden only if no point of its box can be seen from
+/// the eye past the solid of one single occluder box that is not its own. Rounding never breaks
+/// that: every doubt (a number too near zero, an eye inside an occluder or in the plane of its
+/// face, an occluder that the near plane cuts open) is answered "visible". This is what
+/// *conservative* means here. An object that lies in the very surface of an occluder stays visible.
+/// Objects may be reported visible though hidden; the knobs of occ_cull_desc move how many.
+///
+/// **Equal answers.** The same scene, camera and knobs give the same mask bit for bit, whatever the
+/// backend, the thread count or the instruction set of the CPU.
+///
+/// **Threads.** A scene may be read by any number of threads while none edits it: occ_cull() takes
+/// it const. Edits and occ_scene_commit() need it alone. A view belongs to one thread at a time.
+/// There is no state outside scenes and views. With GNU OpenMP, do not fork() after the first
+/// parallel cull.
+///
+/// **Errors** are occ_result values; a log line gives the reason if a logger was set. Bad input
+/// never aborts and leaves the scene untouched.
+///
+/// A frame:
+/// @code
+///     occ_cull(view, scene, &camera, NULL);
+///     occ_view_read_visible(view, slots, capacity, &count);
+/// @endcode
+#ifndef OCCLUDE_H
+#define OCCLUDE_H
+
+#include "base.h"
+#include "cull.h"
+#include "scene.h"
+#include "version.h"
+
+#endif
