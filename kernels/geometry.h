@@ -14,6 +14,8 @@
 // In all less than 12 u (|t|_1 + sum |a_k|_1) + 2u^2 |E|_1; the plane's own offset d was moved by
 // 8u|d| when it was made. OCC_SLACK is 16 u, so e = OCC_SLACK * (|t|_1 + sum |a_k|_1) + floor, with
 // floor >= 4u^2 |E|_1 + 2^-80 (which also swallows underflow), bounds all of it.
+//
+// These are macros because the same text serves floats, OpenCL and vectors of many boxes (lanes.c).
 #ifndef OCC_GEOMETRY_H
 #define OCC_GEOMETRY_H
 
@@ -25,59 +27,42 @@ typedef uint occ_u32;
 #else
 #include <math.h>
 #include <stdint.h>
-#define OCC_FN      static inline
+#define OCC_FN static inline
+#ifndef OCC_FABS
 #define OCC_FABS(x) fabsf(x)
+#endif
 typedef uint32_t occ_u32;
 #endif
 
 #define OCC_SLACK 0x1p-20f
 
 // A coordinate relative to the eye, which is given as a pair of floats.
-OCC_FN float occ_relative(float coordinate, float eye_high, float eye_low)
-{
-    return (coordinate - eye_high) - eye_low;
-}
+#define OCC_RELATIVE(coordinate, eye_high, eye_low) (((coordinate) - (eye_high)) - (eye_low))
+
+// Center and half size of an interval.
+#define OCC_MIDDLE(min, max) (0.5f * (min) + 0.5f * (max))
+#define OCC_HALF(min, max)   (0.5f * (max)-0.5f * (min))
 
 // |x| + |y| + |z|
-OCC_FN float occ_norm1(float x, float y, float z)
-{
-    return OCC_FABS(x) + OCC_FABS(y) + OCC_FABS(z);
-}
+#define OCC_NORM1(x, y, z) (OCC_FABS(x) + OCC_FABS(y) + OCC_FABS(z))
 
 // The error bound e of a box whose |t|_1 + sum |a_k|_1 is `size`.
-OCC_FN float occ_slack(float size, float slack_floor)
-{
-    return size * OCC_SLACK + slack_floor;
-}
+#define OCC_BOUND(size, slack_floor) ((size)*OCC_SLACK + (slack_floor))
 
-// A plane (n, d) at a point.
-OCC_FN float occ_plane_at(float nx, float ny, float nz, float d, float x, float y, float z)
-{
-    return nx * x + ny * y + nz * z + d;
-}
+// s: a plane (n, d) at a center.
+#define OCC_PLANE_AT(nx, ny, nz, d, x, y, z) ((nx) * (x) + (ny) * (y) + (nz) * (z) + (d))
 
-// |n.a|: how far a half axis reaches from the center along a normal.
-OCC_FN float occ_reach_of_axis(float nx, float ny, float nz, float x, float y, float z)
-{
-    return OCC_FABS(nx * x + ny * y + nz * z);
-}
+// |n.a|: how far a half axis reaches from the center along a normal. r is the sum over three axes.
+#define OCC_REACH_OF_AXIS(nx, ny, nz, x, y, z) OCC_FABS((nx) * (x) + (ny) * (y) + (nz) * (z))
 
-// The same for an axis-aligned box with half sizes (x, y, z), none negative.
-OCC_FN float occ_reach_of_aabb(float nx, float ny, float nz, float x, float y, float z)
-{
-    return OCC_FABS(nx) * x + OCC_FABS(ny) * y + OCC_FABS(nz) * z;
-}
+// r of an axis-aligned box with half sizes (x, y, z), none of them negative.
+#define OCC_REACH_OF_AABB(nx, ny, nz, x, y, z)                                                     \
+    (OCC_FABS(nx) * (x) + OCC_FABS(ny) * (y) + OCC_FABS(nz) * (z))
 
-// All corners are on the positive side of a plane, for certain. s and r as above, e the bound.
-OCC_FN int occ_is_inside(float s, float r, float e)
-{
-    return s - r > e;
-}
+// All corners are on the positive side of a plane, for certain.
+#define OCC_IS_INSIDE(s, r, e) ((s) - (r) > (e))
 
 // All corners are on the negative side of a plane, for certain.
-OCC_FN int occ_is_outside(float s, float r, float e)
-{
-    return s + r < -e;
-}
+#define OCC_IS_OUTSIDE(s, r, e) ((s) + (r) < -(e))
 
 #endif

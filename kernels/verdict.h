@@ -53,18 +53,18 @@ typedef struct occ_relative_box {
 
 OCC_FN float occ_box_slack(const occ_relative_box *box, float slack_floor)
 {
-    float size = occ_norm1(box->t[0], box->t[1], box->t[2]);
-    size += occ_norm1(box->a[0], box->a[1], box->a[2]);
-    size += occ_norm1(box->a[3], box->a[4], box->a[5]);
-    size += occ_norm1(box->a[6], box->a[7], box->a[8]);
-    return occ_slack(size, slack_floor);
+    float size = OCC_NORM1(box->t[0], box->t[1], box->t[2]);
+    size += OCC_NORM1(box->a[0], box->a[1], box->a[2]);
+    size += OCC_NORM1(box->a[3], box->a[4], box->a[5]);
+    size += OCC_NORM1(box->a[6], box->a[7], box->a[8]);
+    return OCC_BOUND(size, slack_floor);
 }
 
 OCC_FN float occ_box_reach(const occ_relative_box *box, float nx, float ny, float nz)
 {
-    float r = occ_reach_of_axis(nx, ny, nz, box->a[0], box->a[1], box->a[2]);
-    r += occ_reach_of_axis(nx, ny, nz, box->a[3], box->a[4], box->a[5]);
-    r += occ_reach_of_axis(nx, ny, nz, box->a[6], box->a[7], box->a[8]);
+    float r = OCC_REACH_OF_AXIS(nx, ny, nz, box->a[0], box->a[1], box->a[2]);
+    r += OCC_REACH_OF_AXIS(nx, ny, nz, box->a[3], box->a[4], box->a[5]);
+    r += OCC_REACH_OF_AXIS(nx, ny, nz, box->a[6], box->a[7], box->a[8]);
     return r;
 }
 
@@ -80,9 +80,9 @@ OCC_FN int occ_box_in_shadow(const occ_relative_box *box, OCC_PLANES_OF plane, o
 {
     for (occ_u32 p = 0; p < planes; p++, plane += 4) {
         float s =
-            occ_plane_at(plane[0], plane[1], plane[2], plane[3], box->t[0], box->t[1], box->t[2]);
+            OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], box->t[0], box->t[1], box->t[2]);
         float r = occ_box_reach(box, plane[0], plane[1], plane[2]);
-        if (!occ_is_inside(s, r, box->e)) return 0;
+        if (!OCC_IS_INSIDE(s, r, box->e)) return 0;
     }
     return 1;
 }
@@ -93,9 +93,9 @@ OCC_FN int occ_box_outside(const occ_relative_box *box, OCC_PLANES_OF plane, occ
     for (; mask; mask >>= 1, plane += 4) {
         if (!(mask & 1u)) continue;
         float s =
-            occ_plane_at(plane[0], plane[1], plane[2], plane[3], box->t[0], box->t[1], box->t[2]);
+            OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], box->t[0], box->t[1], box->t[2]);
         float r = occ_box_reach(box, plane[0], plane[1], plane[2]);
-        if (occ_is_outside(s, r, box->e)) return 1;
+        if (OCC_IS_OUTSIDE(s, r, box->e)) return 1;
     }
     return 0;
 }

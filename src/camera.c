@@ -136,6 +136,19 @@ static void find_near_corners(occ_camera *camera)
     }
 }
 
+// The area that an orthographic camera shows, from two sides of its near rectangle.
+static void measure_view(occ_camera *camera)
+{
+    if (!camera->orthographic || !camera->clips_near) return;
+    double side[2][3], normal[3];
+    for (int j = 0; j < 3; j++) {
+        side[0][j] = camera->near_corner[1][j] - camera->near_corner[0][j];
+        side[1][j] = camera->near_corner[2][j] - camera->near_corner[0][j];
+    }
+    occ_cross(side[0], side[1], normal);
+    camera->view_area = sqrt(occ_dot(normal, normal));
+}
+
 static void set_constants(occ_camera *camera)
 {
     double reach = 0.0;
@@ -185,6 +198,7 @@ occ_result occ_camera_init(occ_camera *camera, const occ_camera_desc *desc, cons
         if (set_plane(camera, p, plane[p], own, through_eye)) camera->planes |= 1u << p;
     }
     find_near_corners(camera);
+    measure_view(camera);
     set_constants(camera);
     return OCC_SUCCESS;
 }

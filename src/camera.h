@@ -19,6 +19,7 @@ typedef struct occ_camera {
     uint32_t planes;          // bit p: plane p exists (an infinite far plane does not)
     bool clips_near;          // something between the eye and the near plane is cut away:
     double near_corner[4][3]; // the part of the frustum's rays in front of these
+    double view_area;         // orthographic: of the view rectangle, in square units; else 0
     occ_eye constants;
 } occ_camera;
 

@@ -87,11 +87,19 @@ void occ_array_free(occ_hooks *hooks, occ_array *array)
     *array = (occ_array){.element = array->element};
 }
 
+void *occ_array_extend(occ_hooks *hooks, occ_array *array, size_t more)
+{
+    size_t needed = array->count + more;
+    if (needed > array->capacity) {
+        size_t capacity = (size_t)array->capacity + array->capacity / 2 + 16;
+        if (occ_array_reserve(hooks, array, capacity > needed ? capacity : needed)) return NULL;
+    }
+    return (char *)array->data + (size_t)array->count * array->element;
+}
+
 void *occ_array_push(occ_hooks *hooks, occ_array *array)
 {
-    if (array->count == array->capacity) {
-        size_t more = (size_t)array->capacity + array->capacity / 2 + 16;
-        if (occ_array_reserve(hooks, array, more)) return NULL;
-    }
-    return (char *)array->data + (size_t)array->count++ * array->element;
+    void *place = occ_array_extend(hooks, array, 1);
+    if (place) array->count++;
+    return place;
 }

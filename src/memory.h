@@ -42,7 +42,11 @@ void occ_array_trim(occ_hooks *hooks, occ_array *array);
 
 void occ_array_free(occ_hooks *hooks, occ_array *array);
 
-// Reserves room for one more element, growing by half, and returns it, or NULL.
+// Makes room for `more` elements after the last, growing by half at least, and returns where they
+// begin, or NULL. `count` stays.
+void *occ_array_extend(occ_hooks *hooks, occ_array *array, size_t more);
+
+// Appends one element and returns it, or NULL.
 void *occ_array_push(occ_hooks *hooks, occ_array *array);
 
 #endif
