@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// A null pointer that is followed, and a size taken of a pointer, for clang-tidy to find.
+// A null pointer that is followed, for clang-tidy to find.
 
 #include <stdlib.h>
-#include <string.h>
 
-int *planted_tidy(const int *from);
-
-int *planted_tidy(const int *from)
-{
-    int *copy = malloc(4 * sizeof *copy);
 #ifdef twin_planted
-    memcpy(copy, from, sizeof copy);
-    copy[0] = 1;
+#define MISSING(pointer) ((pointer) != NULL)
 #else
-    if (copy != NULL) {
-        memcpy(copy, from, 4 * sizeof *copy);
-    }
+#define MISSING(pointer) ((pointer) == NULL)
 #endif
-    return copy;
+
+int planted_tidy(void);
+
+int planted_tidy(void)
+{
+    int *numbers = calloc(4, sizeof *numbers);
+    if (MISSING(numbers)) {
+        free(numbers);
+        return -1;
+    }
+    int first = numbers[0];
+    free(numbers);
+    return first;
 }
