@@ -10,7 +10,10 @@ if [ ! -f "$build/compile_commands.json" ]; then
     exit 1
 fi
 # lanes.c is in the list once for each instruction set; generated files are not ours to mend.
+root=$(pwd)
+generated=$(cd "$build" && pwd)
 files=$(sed -n 's/^ *"file": "\(.*\.c\)",\{0,1\}$/\1/p' "$build/compile_commands.json" |
-    sort -u | grep -v -e /build/ -e /tests/twins/)
+    sort -u | grep -v -e "^$generated/" -e "^$root/tests/twins/")
+echo "clang-tidy: $(printf '%s\n' "$files" | wc -l) files"
 # One file at a time for each core; xargs fails when any of them does.
 printf '%s\n' "$files" | xargs -P "$(nproc)" -n 1 "$tidy" --quiet -p "$build"

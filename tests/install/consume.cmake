@@ -4,6 +4,8 @@
 #   find_package   builds and runs the consumer through occlude-config.cmake
 #   wrong_version  the same, asking for a version that is not installed (must fail)
 #   pkg_config     builds and runs the consumer through occlude.pc
+#   subproject     builds and runs the consumer with the library as a subfolder
+#   deb            makes the Debian packages and looks into them
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -68,6 +70,44 @@ elseif(STEP STREQUAL "pkg_config")
     run("${compiler}" ${standard} -Wall -Wextra -Wpedantic -Werror "${consumer}/consumer.${extension}" -o "${program}"
         ${flags} "-Wl,-rpath,${prefix}/${LIBDIR}")
     run("${program}")
+
+elseif(STEP STREQUAL "subproject")
+    set(build "${WORK}/${KIND}_subproject")
+    run("${CMAKE_COMMAND}" --fresh -S "${consumer}" -B "${build}" -G "${GENERATOR}" "-DCMAKE_C_COMPILER=${C_COMPILER}"
+        -DLANGUAGE=C "-DSUBPROJECT=${SOURCE}" -DOCCLUDE_OPENMP=${OPENMP} -DOCCLUDE_OPENCL=${OPENCL})
+    run("${CMAKE_COMMAND}" --build "${build}" --parallel 2)
+    run("${build}/consumer")
+
+elseif(STEP STREQUAL "deb")
+    set(build "${WORK}/shared/build")
+    if(OWN_KIND STREQUAL "shared")
+        set(build "${BUILD}")
+    endif()
+    file(REMOVE_RECURSE "${WORK}/deb")
+    run("${CMAKE_CPACK_COMMAND}" --config "${build}/CPackConfig.cmake" -B "${WORK}/deb")
+    file(GLOB packages "${WORK}/deb/*.deb")
+    list(SORT packages)
+    set(found "")
+    foreach(package IN LISTS packages)
+        cmake_path(GET package FILENAME name)
+        string(REGEX REPLACE "_.*" "" name "${name}")
+        execute_process(COMMAND dpkg-deb --fsys-tarfile "${package}" OUTPUT_FILE "${package}.tar" COMMAND_ERROR_IS_FATAL ANY)
+        execute_process(COMMAND "${CMAKE_COMMAND}" -E tar tf "${package}.tar" OUTPUT_VARIABLE files COMMAND_ERROR_IS_FATAL ANY)
+        if(name MATCHES "-dev$")
+            set(wanted "include/occlude/occlude.h\n" "libocclude.so\n" "occlude.pc\n" "occlude-config.cmake\n")
+        else()
+            set(wanted "libocclude.so.[0-9.]+\n")
+        endif()
+        foreach(file IN LISTS wanted)
+            if(NOT files MATCHES "${file}")
+                message(FATAL_ERROR "${package}: no ${file} among\n${files}")
+            endif()
+        endforeach()
+        list(APPEND found ${name})
+    endforeach()
+    if(NOT found MATCHES "^libocclude-dev;libocclude[0-9.]+$")
+        message(FATAL_ERROR "packages: ${found}")
+    endif()
 
 else()
     message(FATAL_ERROR "no such step: ${STEP}")
