@@ -15,5 +15,9 @@ generated=$(cd "$build" && pwd)
 files=$(sed -n 's/^ *"file": "\(.*\.c\)",\{0,1\}$/\1/p' "$build/compile_commands.json" |
     sort -u | grep -v -e "^$generated/" -e "^$root/tests/twins/")
 echo "clang-tidy: $(printf '%s\n' "$files" | wc -l) files"
-# One file at a time for each core; xargs fails when any of them does.
-printf '%s\n' "$files" | xargs -P "$(nproc)" -n 1 "$tidy" --quiet -p "$build"
+# One file at a time for each core, silent unless it has something to say; xargs fails when any does.
+printf '%s\n' "$files" | xargs -P "$(nproc)" -n 1 sh -c '
+    said=$("$0" --quiet -p "$1" "$2" 2>&1) || {
+        printf "%s\n" "$said"
+        exit 1
+    }' "$tidy" "$build"
