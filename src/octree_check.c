@@ -21,8 +21,8 @@ static const char *check_ranges(const occ_octree *tree, const occ_node *node)
     return next == end ? NULL : "a node's count is the sum of its own and its children's";
 }
 
-static const char *check_bounds(const occ_octree *tree, const occ_node *node,
-                                const occ_tree_items *items, const uint32_t *rows)
+static const char *check_bounds(const occ_node *node, const occ_tree_items *items,
+                                const uint32_t *rows)
 {
     occ_node tight = *node;
     for (int j = 0; j < 3; j++) {
@@ -103,7 +103,7 @@ const char *occ_octree_validate(const occ_octree *tree, const occ_tree_items *it
             broken = "a leaf holds at most as many items as asked for";
         }
         if (!broken) broken = check_cells(tree, &nodes[i], items, rows);
-        if (!broken) broken = check_bounds(tree, &nodes[i], items, rows);
+        if (!broken) broken = check_bounds(&nodes[i], items, rows);
     }
     return broken;
 }
