@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#if OCC_HAVE_OPENCL
+#ifdef OCC_HAVE_OPENCL
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #endif
@@ -24,7 +24,7 @@ int test_run_suite(Suite *suite)
     return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
-#if OCC_HAVE_OPENCL
+#ifdef OCC_HAVE_OPENCL
 static bool has_device(void)
 {
     cl_platform_id platforms[16];
