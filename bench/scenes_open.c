@@ -98,7 +98,8 @@ void scenes_city(obs_scene *scene, uint32_t count, uint64_t seed)
     occ_box ground = scenes_box(length / 2, -0.5, length / 2, length, 0.5, length);
     obs_add_occluder(scene, &ground, obs_add_object(scene, &ground));
 
-    double middle = side / 2 * PITCH - STREET / 2; // of a street that runs along z
+    int before = side / 2; // blocks west of the street that the path follows
+    double middle = before * PITCH - STREET / 2;
     for (int i = 0; i < PATH_FRAMES; i++) {
         double t = (double)i / PATH_FRAMES, yaw = 0.6 * steady_sin(12 * t);
         const double eye[3] = {middle + 2 * steady_sin(9 * t), 1.7, length * (0.1 + 0.8 * t)};

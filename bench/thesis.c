@@ -143,7 +143,8 @@ void thesis_cull(const obs_scene *scene, const obs_frame *frame, uint32_t *mask_
 void thesis_cull_remembered(thesis_memory *memory, const obs_scene *scene, const obs_frame *frame,
                             uint32_t *mask_words)
 {
-    bool is_same = memory->holds && memcmp(memory->eye, frame->eye, sizeof memory->eye) == 0;
+    bool is_same = memory->holds;
+    for (int k = 0; k < 3; k++) is_same = is_same && memory->eye[k] == frame->eye[k];
     if (is_same) return;
     thesis_cull(scene, frame, mask_words);
     memcpy(memory->eye, frame->eye, sizeof memory->eye);
