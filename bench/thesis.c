@@ -144,7 +144,8 @@ void thesis_cull_remembered(thesis_memory *memory, const obs_scene *scene, const
                             uint32_t *mask_words)
 {
     bool is_same = memory->holds;
-    for (int k = 0; k < 3; k++) is_same = is_same && memory->eye[k] == frame->eye[k];
+    for (int k = 0; k < 3; k++)
+        is_same = is_same && memory->eye[k] == frame->eye[k];
     if (is_same) return;
     thesis_cull(scene, frame, mask_words);
     memcpy(memory->eye, frame->eye, sizeof memory->eye);
