@@ -27,6 +27,7 @@ typedef struct seed_arguments {
     const char *counts, *csv, *plot;
     measure_settings settings;
     uint32_t scenes;
+    char driver[256]; // of the last measurement
 } seed_arguments;
 
 static const char seed_default_counts[] =
@@ -83,7 +84,7 @@ static size_t parse_counts(const char *list, seed_row *rows)
     return 0;
 }
 
-static bool measure_scene(const seed_arguments *arguments, seed_row *row, uint32_t seed, double *ms)
+static bool measure_scene(seed_arguments *arguments, seed_row *row, uint32_t seed, double *ms)
 {
     obs_scene scene;
     if (!scenes_make("seedscene", row->objects, seed, &scene)) {
@@ -99,11 +100,12 @@ static bool measure_scene(const seed_arguments *arguments, seed_row *row, uint32
     row->after_octree += (double)frame->stats.tested / arguments->scenes;
     row->after_occlusion += (double)frame->stats.visible / arguments->scenes;
     *ms = frame->ms;
+    memcpy(arguments->driver, result.driver, sizeof arguments->driver);
     measure_free(&result);
     return true;
 }
 
-static bool measure_row(const seed_arguments *arguments, seed_row *row)
+static bool measure_row(seed_arguments *arguments, seed_row *row)
 {
     double times[MAX_SCENES];
     for (uint32_t i = 0; i < arguments->scenes; i++)
@@ -126,7 +128,7 @@ static void print_row(const seed_row *row)
 static void write_table(FILE *stream, const seed_arguments *arguments, const seed_row *rows,
                         size_t count)
 {
-    build_info_write(stream, "none");
+    build_info_write(stream, arguments->driver);
     fprintf(stream, "# backend=%s\n# repeats=%u\n# scenes=%u\n", arguments->settings.backend,
             arguments->settings.repeats, arguments->scenes);
     fputs("objects,in_frustum_objects,after_octree_objects,after_occlusion_objects,time_ms,"
@@ -163,7 +165,7 @@ static void draw(const char *path, const seed_row *rows, size_t count)
         printf("plot: %s\n", path);
 }
 
-static int run_seed(const seed_arguments *arguments, seed_row *rows, size_t count)
+static int run_seed(seed_arguments *arguments, seed_row *rows, size_t count)
 {
     printf("%9s %12s %14s %16s %10s %12s %12s %11s\n", "objects", "in frustum", "after octree",
            "after occlusion", "ms", "fps ceiling", "thesis ms", "ratio");
