@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled several times, each time with OCC_LANES_NAME set to the name of an instruction set. The
+// vectors are GCC's and clang's vector extension, which either compiler maps to what the target
+// has.
+#include "wide.h"
+
+#include "lanes.h"
+
+#ifndef OCC_LANES_NAME
+#define OCC_LANES_NAME plain
+#endif
+#define OCC_PASTE2(a, b) a##b
+#define OCC_PASTE(a, b)  OCC_PASTE2(a, b)
+#define OCC_TEXT2(a)     #a
+#define OCC_TEXT(a)      OCC_TEXT2(a)
+#define OCC_LANES_TABLE  OCC_PASTE(occ_lanes_, OCC_LANES_NAME)
+
+#define OBJECT_LANES OCC_BOX_LANES
+
+static bool any_hides(const occ_shadow_block *blocks, uint32_t count, const occ_relative_box *box)
+{
+    const float *t = box->t, *a = box->a;
+    for (uint32_t b = 0; b < count; b++) {
+        uint32_t inside = 0xffffu;
+        for (uint32_t p = 0; p < OCC_SHADOW_PLANES && inside; p++) {
+            const float(*plane)[OCC_SHADOW_LANES] = blocks[b].plane[p];
+            f16 x = load16(plane[0]), y = load16(plane[1]), z = load16(plane[2]);
+            f16 s = OCC_PLANE_AT(x, y, z, load16(plane[3]), t[0], t[1], t[2]);
+            f16 r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
+            r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
+            r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
+            inside &= bits16(OCC_IS_INSIDE(s, r, box->e));
+        }
+        if (inside) return true;
+    }
+    return false;
+}
+
+typedef struct node_lanes {
+    f8 t[3]; // centers relative to the eye
+    f8 h[3]; // half sizes
+    f8 e;
+} node_lanes;
+
+// Lanes beyond the last sibling repeat it.
+static inline void load_nodes(node_lanes *lanes, const occ_siblings *siblings, const occ_eye *eye)
+{
+    const occ_node *node[OCC_NODE_LANES];
+    for (uint32_t l = 0; l < OCC_NODE_LANES; l++)
+        node[l] = &siblings->nodes[l < siblings->count ? l : siblings->count - 1];
+    for (uint32_t j = 0; j < 3; j++) {
+        f8 min = {node[0]->min[j], node[1]->min[j], node[2]->min[j], node[3]->min[j],
+                  node[4]->min[j], node[5]->min[j], node[6]->min[j], node[7]->min[j]};
+        f8 max = {node[0]->max[j], node[1]->max[j], node[2]->max[j], node[3]->max[j],
+                  node[4]->max[j], node[5]->max[j], node[6]->max[j], node[7]->max[j]};
+        min = OCC_RELATIVE(min, eye->high[j], eye->low[j]);
+        max = OCC_RELATIVE(max, eye->high[j], eye->low[j]);
+        lanes->t[j] = OCC_MIDDLE(min, max);
+        lanes->h[j] = OCC_HALF(min, max);
+    }
+    f8 size = OCC_NORM1(lanes->t[0], lanes->t[1], lanes->t[2]);
+    size += OCC_NORM1(lanes->h[0], lanes->h[1], lanes->h[2]);
+    lanes->e = OCC_BOUND(size, eye->slack_floor);
+}
+
+typedef struct sides {
+    uint32_t inside, outside;
+} sides;
+
+// Which nodes are inside a plane, and which outside, for certain.
+static inline sides sides_of_nodes(const node_lanes *n, const float plane[4])
+{
+    f8 s = OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], n->t[0], n->t[1], n->t[2]);
+    f8 r = OCC_REACH_OF_AABB(plane[0], plane[1], plane[2], n->h[0], n->h[1], n->h[2]);
+    return (sides){bits8(OCC_IS_INSIDE(s, r, n->e)), bits8(OCC_IS_OUTSIDE(s, r, n->e))};
+}
+
+static void cut(occ_siblings *siblings, const occ_eye *eye)
+{
+    node_lanes lanes;
+    load_nodes(&lanes, siblings, eye);
+    siblings->outside = 0;
+    siblings->hidden = 0;
+    for (uint32_t c = 0; c < OCC_NODE_LANES; c++)
+        siblings->frustum_of[c] = siblings->frustum;
+    for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
+        if (!(siblings->frustum >> p & 1u)) continue;
+        sides side = sides_of_nodes(&lanes, eye->plane[p]);
+        siblings->outside |= side.outside;
+        for (uint32_t c = 0; c < siblings->count; c++)
+            siblings->frustum_of[c] &= ~((side.inside >> c & 1u) << p);
+    }
+    siblings->outside &= (1u << siblings->count) - 1u;
+}
+
+// Bits of the children that own the shadow's occluder: it must not hide them.
+static uint32_t owners_among(const occ_siblings *siblings, uint32_t owner)
+{
+    uint32_t bits = 0;
+    for (uint32_t c = 0; c < siblings->count; c++)
+        bits |= (uint32_t)(owner - siblings->nodes[c].first < siblings->nodes[c].count) << c;
+    return bits;
+}
+
+static void shade(occ_siblings *siblings, const occ_eye *eye, const occ_candidates *candidates,
+                  uint8_t *touched)
+{
+    node_lanes lanes;
+    load_nodes(&lanes, siblings, eye);
+    uint32_t open = ((1u << siblings->count) - 1u) & ~siblings->outside;
+    for (uint32_t i = 0; i < candidates->count; i++) {
+        const occ_shadow *shadow = &candidates->shadows[candidates->list[i]];
+        uint32_t touching = open, inside = open;
+        for (uint32_t p = 0; p < shadow->planes && touching; p++) {
+            sides side = sides_of_nodes(&lanes, shadow->plane[p]);
+            touching &= ~side.outside;
+            inside &= side.inside;
+        }
+        touched[i] = (uint8_t)touching;
+        if (!(touching & inside)) continue;
+        siblings->hidden |= touching & inside & ~owners_among(siblings, shadow->owner);
+        open &= ~siblings->hidden;
+        if (!open) return;
+    }
+}
+
+typedef struct object_lanes {
+    f16 t[3];
+    f16 a[9];
+    f16 e;
+} object_lanes;
+
+static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_t row,
+                                const occ_eye *eye)
+{
+    for (uint32_t j = 0; j < 3; j++) {
+        f16 center = load16(occ_boxes_column(boxes, j) + row);
+        o->t[j] = OCC_RELATIVE(center, eye->high[j], eye->low[j]);
+    }
+    for (uint32_t k = 0; k < 9; k++)
+        o->a[k] = load16(occ_boxes_column(boxes, 3 + k) + row);
+    f16 size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
+    size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
+    size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
+    size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
+    o->e = OCC_BOUND(size, eye->slack_floor);
+}
+
+static inline f16 reach_of_objects(const object_lanes *o, const float n[4])
+{
+    f16 r = OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[0], o->a[1], o->a[2]);
+    r += OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[3], o->a[4], o->a[5]);
+    r += OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[6], o->a[7], o->a[8]);
+    return r;
+}
+
+static inline f16 center_of_objects(const object_lanes *o, const float n[4])
+{
+    return OCC_PLANE_AT(n[0], n[1], n[2], n[3], o->t[0], o->t[1], o->t[2]);
+}
+
+static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye, uint32_t planes)
+{
+    uint32_t outside = 0;
+    for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
+        if (!(planes >> p & 1u)) continue;
+        f16 s = center_of_objects(o, eye->plane[p]), r = reach_of_objects(o, eye->plane[p]);
+        outside |= bits16(OCC_IS_OUTSIDE(s, r, o->e));
+    }
+    return outside;
+}
+
+static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *shadow, uint32_t open)
+{
+    for (uint32_t p = 0; p < shadow->planes && open; p++) {
+        f16 s = center_of_objects(o, shadow->plane[p]), r = reach_of_objects(o, shadow->plane[p]);
+        open &= bits16(OCC_IS_INSIDE(s, r, o->e));
+    }
+    return open;
+}
+
+static occ_range_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
+                              const occ_candidates *candidates)
+{
+    occ_range_verdict verdict = {0, 0};
+    for (uint32_t i = 0; i < range->count; i += OBJECT_LANES) {
+        object_lanes lanes;
+        uint32_t row = range->first + i, left = range->count - i;
+        load_objects(&lanes, boxes, row, eye);
+        uint32_t all = left >= OBJECT_LANES ? 0xffffu : (1u << left) - 1u;
+        uint32_t outside = outside_frustum(&lanes, eye, range->frustum) & all;
+        uint32_t open = all & ~outside;
+        for (uint32_t c = 0; c < candidates->count && open; c++) {
+            const occ_shadow *shadow = &candidates->shadows[candidates->list[c]];
+            uint32_t hidden = inside_shadow(&lanes, shadow, open);
+            uint32_t own = shadow->owner - row;
+            if (own < OBJECT_LANES) hidden &= ~(1u << own);
+            open &= ~hidden;
+        }
+        verdict.visible |= (uint64_t)open << i;
+        verdict.outside |= (uint64_t)outside << i;
+    }
+    return verdict;
+}
+
+extern const occ_lanes OCC_LANES_TABLE;
+const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), any_hides, cut, shade, test};
