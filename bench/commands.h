@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The subcommands of occlude-bench. Each gets its own name as argv[0] and returns the exit status:
+/// 0, 1 when an input could not be used (after a message, with nothing written), 2 on bad usage.
+#ifndef OCC_BENCH_COMMANDS_H
+#define OCC_BENCH_COMMANDS_H
+
+/// Writes one of the named scenes.
+int bench_scene(int argc, char **argv);
+
+/// Culls every frame of a scene file, and measures it.
+int bench_cull(int argc, char **argv);
+
+/// The 2019 thesis's experiment.
+int bench_seed(int argc, char **argv);
+
+/// Triangles to boxes and a camera path.
+int bench_convert(int argc, char **argv);
+
+/// Draws what was decided in one frame.
+int bench_picture(int argc, char **argv);
+
+#endif

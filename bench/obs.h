@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Scene files (.obs, version 1): objects, occluders and a camera path. Little-endian, packed:
+///
+///     "OBS1"  u32 objects  u32 occluders  u32 frames
+///     objects   x 12 f32: center, axis[3]
+///     occluders x 12 f32 as above, u32 owner
+///     frames    x 38 f32: eye[3], dir[3], view[16], proj[16]
+#ifndef OCC_BENCH_OBS_H
+#define OCC_BENCH_OBS_H
+
+#include <occlude/scene.h>
+
+/// A solid box or flat sheet, and the index of the object that it is part of.
+typedef struct obs_occluder {
+    occ_box box;
+    uint32_t owner;
+} obs_occluder;
+
+/// A camera. The matrices are column-major with OpenGL's conventions (clip z in [-w, w]).
+typedef struct obs_frame {
+    float eye[3], dir[3], view[16], proj[16];
+} obs_frame;
+
+/// What a scene file holds. All zero is an empty scene; obs_free() it when done.
+typedef struct obs_scene {
+    uint32_t object_count, occluder_count, frame_count;
+    occ_box *objects;
+    obs_occluder *occluders;
+    obs_frame *frames;
+    uint32_t object_capacity, occluder_capacity, frame_capacity;
+    bool out_of_memory; ///< An obs_add_…() has failed: obs_write() will refuse.
+} obs_scene;
+
+/// Reads a scene. On failure says on standard error which file, at which byte, and what was
+/// expected, zeroes `scene` and returns false.
+bool obs_read(const char *path, obs_scene *scene);
+
+/// The same from memory. `name` stands for the file in messages; NULL: no messages.
+bool obs_parse(const void *bytes, size_t size, const char *name, obs_scene *scene);
+
+/// Writes a scene whole or not at all. On failure says why and returns false.
+bool obs_write(const char *path, const obs_scene *scene);
+
+/// Frees what a scene holds and zeroes it.
+void obs_free(obs_scene *scene);
+
+/// Appends an object and returns its index. When memory runs out, sets `out_of_memory` and returns
+/// UINT32_MAX, as the next two do.
+uint32_t obs_add_object(obs_scene *scene, const occ_box *box);
+
+/// Appends an occluder, part of the object `owner`, and returns its index.
+uint32_t obs_add_occluder(obs_scene *scene, const occ_box *box, uint32_t owner);
+
+/// Appends a frame and returns its index.
+uint32_t obs_add_frame(obs_scene *scene, const obs_frame *frame);
+
+/// A perspective frame: eye, direction of view (any length but zero; y is up unless it looks
+/// straight up or down), cotangent of half the vertical field of view, width over height, and the
+/// near and far distances. 60 degrees is cotangent sqrt(3).
+obs_frame obs_look(const double eye[3], const double direction[3], double cotangent, double aspect,
+                   double near_z, double far_z);
+
+/// proj * view, multiplied in double and rounded once.
+void obs_view_projection(const obs_frame *frame, float out[16]);
+
+/// Reads a whole file. Returns NULL after a message, else memory to free(); never NULL for an empty
+/// file.
+void *obs_read_bytes(const char *path, size_t *size);
+
+#endif
