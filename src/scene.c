@@ -9,7 +9,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#define DEFAULT_LEAF_OBJECTS 32u
+#define DEFAULT_LEAF_OBJECTS 64u
 #define MOST_LEAF_OBJECTS    1024u
 
 static atomic_uint_least64_t scenes_made;

@@ -9,7 +9,7 @@
 
 #define DEFAULT_MIN_AREA      2e-4f
 #define DEFAULT_MAX_OCCLUDERS 1024u
-#define DEFAULT_GRAIN         32u
+#define DEFAULT_GRAIN         64u
 
 static double now_ms(void)
 {
