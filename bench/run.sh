@@ -125,6 +125,6 @@ table '' >"$results/all.txt"
 echo
 cat "$results/all.txt"
 echo
-echo "The masks of plain, openmp${opencl:+ and opencl} are the same bits in every scene above."
+echo "On every scene above the masks of plain, openmp${opencl:+, opencl} were compared: the same bits."
 echo "Results are in $results: seed.txt, seed.csv, seed.png, city.txt, all.txt, a CSV for each run, pictures."
 echo "$(($(date +%s) - started)) seconds after the installs."
