@@ -39,6 +39,12 @@ typedef struct occ_range {
 
 #define OCC_RANGE_OBJECTS 64u
 
+// The answers for a range: bit i % 32 of word i / 32 speaks of row first + i. Neither: hidden.
+typedef struct occ_verdict {
+    occ_u32 visible[2];
+    occ_u32 outside[2];
+} occ_verdict;
+
 // What is known of an object.
 #define OCC_VISIBLE 0u
 #define OCC_OUTSIDE 1u

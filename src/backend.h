@@ -19,7 +19,7 @@ typedef struct occ_test_job {
     uint32_t range_count;
     const uint32_t *candidates; // the ranges' lists, one after the other
     uint32_t candidate_count;
-    occ_range_verdict *verdicts; // one per range: what the backend writes
+    occ_verdict *verdicts; // one per range: what the backend writes
 } occ_test_job;
 
 typedef struct occ_tester occ_tester;

@@ -33,11 +33,11 @@ static occ_result test(occ_tester *backend, const occ_test_job *job)
     (void)backend;
     for (uint32_t r = 0; r < job->range_count; r++) {
         const occ_range *range = &job->ranges[r];
-        occ_range_verdict verdict = {0, 0};
+        occ_verdict verdict = {{0, 0}, {0, 0}};
         for (uint32_t i = 0; i < range->count; i++) {
             uint32_t known = verdict_of(job, range, range->first + i);
-            verdict.visible |= (uint64_t)(known == OCC_VISIBLE) << i;
-            verdict.outside |= (uint64_t)(known == OCC_OUTSIDE) << i;
+            verdict.visible[i / 32] |= (uint32_t)(known == OCC_VISIBLE) << i % 32;
+            verdict.outside[i / 32] |= (uint32_t)(known == OCC_OUTSIDE) << i % 32;
         }
         job->verdicts[r] = verdict;
     }

@@ -12,7 +12,7 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
     frame->touched = OCC_ARRAY(uint8_t);
     frame->ranges = OCC_ARRAY(occ_range);
     frame->candidates = OCC_ARRAY(uint32_t);
-    frame->verdicts = OCC_ARRAY(occ_range_verdict);
+    frame->verdicts = OCC_ARRAY(occ_verdict);
 }
 
 void occ_frame_free(occ_frame *frame)

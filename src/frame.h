@@ -28,7 +28,7 @@ typedef struct occ_frame {
     occ_array touched;    // of uint8_t
     occ_array ranges;     // of occ_range
     occ_array candidates; // of uint32_t: the candidate lists of the ranges
-    occ_array verdicts;   // of occ_range_verdict, filled by the backend
+    occ_array verdicts;   // of occ_verdict, filled by the backend
 } occ_frame;
 
 void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes);

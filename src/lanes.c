@@ -179,10 +179,10 @@ static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *sh
     return open;
 }
 
-static occ_range_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
-                              const occ_candidates *candidates)
+static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
+                        const occ_candidates *candidates)
 {
-    occ_range_verdict verdict = {0, 0};
+    occ_verdict verdict = {{0, 0}, {0, 0}};
     for (uint32_t i = 0; i < range->count; i += OBJECT_LANES) {
         object_lanes lanes;
         uint32_t row = range->first + i, left = range->count - i;
@@ -197,8 +197,8 @@ static occ_range_verdict test(const occ_boxes *boxes, const occ_range *range, co
             if (own < OBJECT_LANES) hidden &= ~(1u << own);
             open &= ~hidden;
         }
-        verdict.visible |= (uint64_t)open << i;
-        verdict.outside |= (uint64_t)outside << i;
+        verdict.visible[i / 32] |= open << i % 32;
+        verdict.outside[i / 32] |= outside << i % 32;
     }
     return verdict;
 }

@@ -35,12 +35,6 @@ typedef struct occ_candidates {
     uint32_t count;
 } occ_candidates;
 
-// The answers for a range: bit i speaks of row first + i.
-typedef struct occ_range_verdict {
-    uint64_t visible;
-    uint64_t outside;
-} occ_range_verdict;
-
 typedef struct occ_lanes {
     const char *name;
 
@@ -56,8 +50,8 @@ typedef struct occ_lanes {
                   uint8_t *touched);
 
     // Decides the objects of a range.
-    occ_range_verdict (*test)(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
-                              const occ_candidates *candidates);
+    occ_verdict (*test)(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
+                        const occ_candidates *candidates);
 } occ_lanes;
 
 // The widest that this CPU runs.

@@ -130,12 +130,6 @@ static occ_result run_test(occ_view *view)
     return result;
 }
 
-// The lowest bit that is set; `bits` is not 0.
-static uint32_t lowest(uint64_t bits)
-{
-    return (uint32_t)__builtin_ctzll(bits);
-}
-
 // Scatters the ranges' verdicts, which speak of rows, into the mask, which speaks of slots.
 static occ_result hand_over(occ_view *view)
 {
@@ -147,16 +141,17 @@ static occ_result hand_over(occ_view *view)
     view->mask.count = (uint32_t)OCC_MASK_WORDS(slots);
     memset(mask, 0, OCC_MASK_WORDS(slots) * sizeof *mask);
     const occ_range *ranges = frame->ranges.data;
-    const occ_range_verdict *verdicts = frame->verdicts.data;
+    const occ_verdict *verdicts = frame->verdicts.data;
     const uint32_t *slot_of = occ_scene_slot_of(frame->scene);
     occ_view_stats *stats = &view->frame.stats;
-    for (uint32_t r = 0; r < frame->ranges.count; r++) {
-        for (uint64_t bits = verdicts[r].visible; bits; bits &= bits - 1) {
-            uint32_t slot = slot_of[ranges[r].first + lowest(bits)];
+    for (uint32_t i = 0; i < 2 * frame->ranges.count; i++) {
+        uint32_t first = ranges[i / 2].first + 32 * (i % 2);
+        for (uint32_t bits = verdicts[i / 2].visible[i % 2]; bits; bits &= bits - 1) {
+            uint32_t slot = slot_of[first + (uint32_t)__builtin_ctz(bits)];
             mask[slot / 32] |= 1u << slot % 32;
             stats->visible++;
         }
-        stats->test_outside += (uint32_t)__builtin_popcountll(verdicts[r].outside);
+        stats->test_outside += (uint32_t)__builtin_popcount(verdicts[i / 2].outside[i % 2]);
     }
     stats->test_hidden = stats->tested - stats->test_outside - stats->visible;
     return OCC_SUCCESS;
