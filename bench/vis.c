@@ -37,6 +37,19 @@ void vis_set_frame(vis_result *result, uint32_t frame, const uint32_t *words)
         row[i] = (uint8_t)(words[i / 4] >> (8 * (i % 4)));
 }
 
+uint32_t vis_differences(const vis_result *result, uint32_t frame, const uint32_t *words)
+{
+    size_t count = vis_row_bytes(result->object_count);
+    const uint8_t *row = result->bits + frame * count;
+    uint32_t different = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits = (words[i / 4] >> (8 * (i % 4)) ^ row[i]) & 0xffu;
+        for (; bits; bits &= bits - 1)
+            different++;
+    }
+    return different;
+}
+
 bool vis_is_visible(const vis_result *result, uint32_t frame, uint32_t object)
 {
     const uint8_t *row = result->bits + frame * vis_row_bytes(result->object_count);

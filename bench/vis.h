@@ -23,6 +23,9 @@ bool vis_create(vis_result *result, uint32_t object_count, uint32_t frame_count)
 /// Takes over a frame's mask from 32-bit words, as occ_view_read_mask() gives them.
 void vis_set_frame(vis_result *result, uint32_t frame, const uint32_t *words);
 
+/// The number of objects whose verdict in a frame differs from the mask's.
+uint32_t vis_differences(const vis_result *result, uint32_t frame, const uint32_t *words);
+
 /// Whether an object may be visible in a frame.
 bool vis_is_visible(const vis_result *result, uint32_t frame, uint32_t object);
 

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "measure.h"
+
+#include "build_info.h"
+#include "counting.h"
+#include "progress.h"
+#include "thesis.h"
+#include "timing.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+// Everything that lives while a scene is measured.
+typedef struct measure_bench {
+    const obs_scene *file;
+    const measure_settings *settings;
+    measure_result *result;
+    counting_heap heap;
+    occ_scene *scene;
+    occ_view *view;
+    occ_cull_desc knobs;
+    uint32_t *mask, *list;
+    double *times; // [3][frame][repeat]: whole, walk, test
+    bool is_thesis;
+} measure_bench;
+
+measure_settings measure_defaults(void)
+{
+    return (measure_settings){.method = "single", .repeats = 5, .every = 1};
+}
+
+static bool find_method(const char *name, occ_method *method)
+{
+    static const char *const names[] = {"single", "frustum", "pairwise"};
+    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_FRUSTUM,
+                                         OCC_METHOD_PAIRWISE};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0) {
+            *method = methods[i];
+            return true;
+        }
+    return false;
+}
+
+static bool find_backend(const char *name, occ_backend *backend)
+{
+    static const char *const names[] = {"openmp", "plain", "opencl"};
+    static const occ_backend backends[] = {OCC_BACKEND_OPENMP, OCC_BACKEND_PLAIN,
+                                           OCC_BACKEND_OPENCL};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0) {
+            *backend = backends[i];
+            return true;
+        }
+    return false;
+}
+
+static bool is_thesis(const measure_settings *settings)
+{
+    return strcmp(settings->method, "thesis") == 0;
+}
+
+const char *measure_complete(measure_settings *settings)
+{
+    occ_method method;
+    occ_backend backend;
+    if (!settings->backend) settings->backend = is_thesis(settings) ? "plain" : "openmp";
+    if (!is_thesis(settings) && !find_method(settings->method, &method))
+        return "expected frustum, thesis, pairwise or single after --method";
+    if (!find_backend(settings->backend, &backend))
+        return "expected plain, openmp or opencl after --backend";
+    if (is_thesis(settings) && backend != OCC_BACKEND_PLAIN)
+        return "the thesis's method runs on --backend plain alone";
+    return NULL;
+}
+
+const char *measure_warning(const measure_settings *settings, const obs_scene *scene)
+{
+    double objects = scene->object_count, occluders = scene->occluder_count;
+    if (is_thesis(settings) && objects > 5000)
+        return "the thesis's method tries all pairs of objects: --force runs it on more than 5000";
+    if (strcmp(settings->method, "pairwise") == 0 && objects * occluders > 1e9)
+        return "pairwise tries all pairs: --force runs it on more than 1e9 of them";
+    return NULL;
+}
+
+static uint32_t thread_count(const measure_settings *settings)
+{
+    if (strcmp(settings->backend, "openmp") != 0) return 1;
+    if (settings->threads > 0) return settings->threads;
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return processors > 0 ? (uint32_t)processors : 1;
+}
+
+static void print_log_line(occ_log_level level, const char *line, void *user_data)
+{
+    (void)user_data;
+    if (level != OCC_LOG_INFO) fprintf(stderr, "occlude: %s\n", line);
+}
+
+static bool succeeded(occ_result result, const char *what)
+{
+    if (result == OCC_SUCCESS) return true;
+    fprintf(stderr, "occlude-bench: %s: %s (%s)\n", what, occ_result_message(result),
+            occ_result_name(result));
+    return false;
+}
+
+static bool is_out_of_memory(void)
+{
+    fputs("occlude-bench: not enough memory\n", stderr);
+    return false;
+}
+
+// --- building ------------------------------------------------------------------------------------
+
+static bool add_boxes(measure_bench *bench, occ_object *objects, occ_box *boxes, occ_object *owners)
+{
+    const obs_scene *file = bench->file;
+    for (uint32_t i = 0; i < file->occluder_count; i++)
+        boxes[i] = file->occluders[i].box;
+    double start = timing_now();
+    if (!succeeded(occ_scene_add_many(bench->scene, file->objects, file->object_count, objects),
+                   "adding the objects"))
+        return false;
+    for (uint32_t i = 0; i < file->occluder_count; i++)
+        owners[i] = objects[file->occluders[i].owner];
+    if (!succeeded(occ_scene_add_occluders(bench->scene, boxes, owners, file->occluder_count, NULL),
+                   "adding the occluders") ||
+        !succeeded(occ_scene_commit(bench->scene), "committing the scene"))
+        return false;
+    bench->result->build_ms = timing_now() - start;
+    return true;
+}
+
+static bool build_scene(measure_bench *bench)
+{
+    const obs_scene *file = bench->file;
+    occ_scene_desc desc = {.allocator = counting_allocator(&bench->heap),
+                           .logger = {print_log_line, NULL},
+                           .object_count = file->object_count,
+                           .occluder_count = file->occluder_count};
+    if (!succeeded(occ_scene_create(&desc, &bench->scene), "making the scene")) return false;
+    occ_object *objects = calloc((size_t)file->object_count + 1, sizeof *objects);
+    occ_object *owners = calloc((size_t)file->occluder_count + 1, sizeof *owners);
+    occ_box *boxes = calloc((size_t)file->occluder_count + 1, sizeof *boxes);
+    bool good =
+        objects && owners && boxes ? add_boxes(bench, objects, boxes, owners) : is_out_of_memory();
+    free(objects);
+    free(owners);
+    free(boxes);
+    return good;
+}
+
+static bool make_view(measure_bench *bench)
+{
+    occ_view_desc desc = {.allocator = counting_allocator(&bench->heap),
+                          .logger = {print_log_line, NULL},
+                          .threads = bench->result->threads};
+    if (!find_backend(bench->settings->backend, &desc.backend)) return false;
+    if (!succeeded(occ_view_create(&desc, &bench->view), "making the view")) return false;
+    build_info_device(bench->view, bench->result->driver, sizeof bench->result->driver);
+    return true;
+}
+
+// --- culling -------------------------------------------------------------------------------------
+
+static occ_result cull_frame(occ_view *view, const occ_scene *scene, const obs_frame *frame,
+                             const occ_cull_desc *knobs)
+{
+    double eye[3] = {(double)frame->eye[0], (double)frame->eye[1], (double)frame->eye[2]};
+    occ_camera_desc camera = {.eye = eye};
+    obs_view_projection(frame, camera.view_projection);
+    return occ_cull(view, scene, &camera, knobs);
+}
+
+// Returns the number of visible objects.
+static size_t list_from_mask(const uint32_t *mask, uint32_t count, uint32_t *list)
+{
+    size_t visible = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (mask[i / 32] >> i % 32 & 1) list[visible++] = i;
+    return visible;
+}
+
+static void cull_as_thesis(measure_bench *bench, const obs_frame *frame, measure_frame *row)
+{
+    uint32_t count = bench->file->object_count;
+    double start = timing_now();
+    thesis_cull(bench->file, frame, bench->mask);
+    row->stats = (occ_view_stats){.objects = count, .tested = count};
+    row->stats.visible = (uint32_t)list_from_mask(bench->mask, count, bench->list);
+    row->ms = timing_now() - start;
+    row->stats.test_ms = row->ms;
+}
+
+// One cull with its hand-over, timed into `row`.
+static bool cull_once(measure_bench *bench, measure_frame *row)
+{
+    const obs_frame *frame = &bench->file->frames[row->index];
+    if (bench->is_thesis) {
+        cull_as_thesis(bench, frame, row);
+        return true;
+    }
+    size_t words, visible = 0, capacity = bench->file->object_count;
+    double start = timing_now();
+    occ_result result = cull_frame(bench->view, bench->scene, frame, &bench->knobs);
+    if (result == OCC_SUCCESS)
+        result = occ_view_read_mask(bench->view, bench->mask, OCC_MASK_WORDS(capacity), &words);
+    if (result == OCC_SUCCESS)
+        result = occ_view_read_visible(bench->view, bench->list, capacity, &visible);
+    row->ms = timing_now() - start;
+    if (result == OCC_SUCCESS) result = occ_view_get_stats(bench->view, &row->stats);
+    if (!succeeded(result, "culling")) return false;
+    return true;
+}
+
+static bool count_in_frustum(measure_bench *bench)
+{
+    const occ_view_desc desc = {.logger = {print_log_line, NULL}, .backend = OCC_BACKEND_PLAIN};
+    const occ_cull_desc frustum = {.method = OCC_METHOD_FRUSTUM};
+    occ_view *view;
+    if (!succeeded(occ_view_create(&desc, &view), "making a view")) return false;
+    bool good = true;
+    for (uint32_t i = 0; good && i < bench->result->frame_count; i++) {
+        measure_frame *row = &bench->result->frames[i];
+        occ_view_stats stats = {0};
+        occ_result result =
+            cull_frame(view, bench->scene, &bench->file->frames[row->index], &frustum);
+        if (result == OCC_SUCCESS) result = occ_view_get_stats(view, &stats);
+        good = succeeded(result, "culling by the frustum");
+        row->in_frustum = stats.visible;
+    }
+    occ_view_destroy(view);
+    return good;
+}
+
+// The first pass: untimed, and its masks are what the timed ones must equal.
+static bool warm_up(measure_bench *bench)
+{
+    measure_result *result = bench->result;
+    for (uint32_t i = 0; i < result->frame_count; i++) {
+        if (!cull_once(bench, &result->frames[i])) return false;
+        vis_set_frame(&result->verdicts, i, bench->mask);
+        progress_step(i + 1);
+    }
+    return true;
+}
+
+static bool equals_first_pass(const measure_bench *bench, uint32_t frame)
+{
+    uint32_t different = vis_differences(&bench->result->verdicts, frame, bench->mask);
+    if (different == 0) return true;
+    fprintf(stderr, "occlude-bench: frame %u: %u objects got another verdict when repeated\n",
+            bench->result->frames[frame].index, different);
+    return false;
+}
+
+static bool run_timed_passes(measure_bench *bench)
+{
+    measure_result *result = bench->result;
+    size_t repeats = bench->settings->repeats, plane = result->frame_count * repeats;
+    for (size_t pass = 0; pass < repeats; pass++)
+        for (uint32_t i = 0; i < result->frame_count; i++) {
+            uint64_t before = bench->heap.calls;
+            if (!cull_once(bench, &result->frames[i])) return false;
+            result->timed_allocations += bench->heap.calls - before;
+            if (!equals_first_pass(bench, i)) return false;
+            double *times = bench->times + i * repeats + pass;
+            times[0] = result->frames[i].ms;
+            times[plane] = result->frames[i].stats.walk_ms;
+            times[2 * plane] = result->frames[i].stats.test_ms;
+            progress_step((pass + 1) * result->frame_count + i + 1);
+        }
+    for (uint32_t i = 0; i < result->frame_count; i++) {
+        double *times = bench->times + i * repeats;
+        result->frames[i].ms = timing_median(times, repeats);
+        result->frames[i].walk_ms = timing_median(times + plane, repeats);
+        result->frames[i].test_ms = timing_median(times + 2 * plane, repeats);
+    }
+    return true;
+}
+
+static bool run_all(measure_bench *bench)
+{
+    if (!build_scene(bench) || !count_in_frustum(bench)) return false;
+    if (!bench->is_thesis && !make_view(bench)) return false;
+    progress_begin("culling frames",
+                   (size_t)bench->result->frame_count * (1 + bench->settings->repeats));
+    bool good = warm_up(bench) && run_timed_passes(bench);
+    progress_end();
+    if (!good) return false;
+    occ_scene_stats scene;
+    if (!succeeded(occ_scene_get_stats(bench->scene, &scene), "asking for the scene's size"))
+        return false;
+    bench->result->scene_bytes = scene.bytes;
+    if (bench->result->frame_count == 0 || bench->is_thesis) return true;
+    bench->result->view_bytes = bench->result->frames[0].stats.bytes;
+    bench->result->device_bytes = bench->result->frames[0].stats.device_bytes;
+    return true;
+}
+
+static bool allocate_bench(measure_bench *bench)
+{
+    measure_result *result = bench->result;
+    uint32_t every = bench->settings->every, objects = bench->file->object_count;
+    result->frame_count = (bench->file->frame_count + every - 1) / every;
+    result->frames = calloc((size_t)result->frame_count + 1, sizeof *result->frames);
+    bench->mask = calloc(OCC_MASK_WORDS(objects) + 1, sizeof *bench->mask);
+    bench->list = calloc((size_t)objects + 1, sizeof *bench->list);
+    bench->times =
+        calloc((size_t)result->frame_count * bench->settings->repeats + 1, 3 * sizeof(double));
+    bool good = vis_create(&result->verdicts, objects, result->frame_count);
+    if (!good || !result->frames || !bench->mask || !bench->list || !bench->times)
+        return is_out_of_memory();
+    for (uint32_t i = 0; i < result->frame_count; i++)
+        result->frames[i].index = i * every;
+    return true;
+}
+
+bool measure_run(const measure_settings *settings, const obs_scene *scene, measure_result *result)
+{
+    *result = (measure_result){.threads = thread_count(settings), .driver = "none"};
+    measure_bench bench = {.file = scene, .settings = settings, .result = result};
+    bench.is_thesis = is_thesis(settings);
+    bench.knobs = settings->knobs;
+    if (!bench.is_thesis && !find_method(settings->method, &bench.knobs.method)) return false;
+    bool good = allocate_bench(&bench) && run_all(&bench);
+    occ_view_destroy(bench.view);
+    occ_scene_destroy(bench.scene);
+    free(bench.mask);
+    free(bench.list);
+    free(bench.times);
+    if (!good) measure_free(result);
+    return good;
+}
+
+void measure_free(measure_result *result)
+{
+    free(result->frames);
+    vis_free(&result->verdicts);
+    *result = (measure_result){0};
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Culls the frames of a scene file with one method and backend, and times it.
+///
+/// The time of a frame is what a user waits for: the call of occ_cull(), the copy of the mask and
+/// the copy of the list of visible objects. All frames are culled once before anything is timed;
+/// then they are culled in order, as often as `repeats` says, so that no frame finds its own data
+/// in the caches.
+#ifndef OCC_BENCH_MEASURE_H
+#define OCC_BENCH_MEASURE_H
+
+#include "obs.h"
+#include "vis.h"
+
+#include <occlude/cull.h>
+
+/// What to run. measure_defaults() begins it, measure_complete() ends it.
+typedef struct measure_settings {
+    const char *method;  ///< frustum, thesis, pairwise or single.
+    const char *backend; ///< plain, openmp or opencl. NULL: measure_complete() chooses.
+    uint32_t threads;    ///< Of the OpenMP backend. 0: as many as processors.
+    uint32_t repeats;    ///< Timed culls of each frame.
+    uint32_t every;      ///< Only every so-manieth frame.
+    occ_cull_desc knobs; ///< Its `method` follows from the name.
+} measure_settings;
+
+/// A frame's figures. Times are medians over its repeats, in milliseconds.
+typedef struct measure_frame {
+    uint32_t index; ///< In the file.
+    double ms, walk_ms, test_ms;
+    uint32_t in_frustum;
+    occ_view_stats stats; ///< For `thesis` only objects, tested and visible are set.
+} measure_frame;
+
+/// What came out. measure_free() it when done.
+typedef struct measure_result {
+    uint32_t frame_count, threads;
+    measure_frame *frames;
+    vis_result verdicts; ///< One row for each entry of `frames`.
+    double build_ms;     ///< Adding and committing all objects and occluders.
+    uint64_t scene_bytes, view_bytes, device_bytes;
+    uint64_t timed_allocations; ///< Seen by the allocator hooks while frames were timed.
+    char driver[256];           ///< The OpenCL device and its driver, or "none".
+} measure_result;
+
+/// Method single, the OpenMP backend, five repeats, every frame.
+measure_settings measure_defaults(void);
+
+/// Chooses the backend where none is named. Returns NULL, or what is wrong with the names.
+const char *measure_complete(measure_settings *settings);
+
+/// NULL, or why this method should not be run on this scene: a quadratic one on a large scene.
+const char *measure_warning(const measure_settings *settings, const obs_scene *scene);
+
+/// Runs. On failure says why on standard error, zeroes `result` and returns false.
+bool measure_run(const measure_settings *settings, const obs_scene *scene, measure_result *result);
+
+void measure_free(measure_result *result);
+
+/// Median, 99th percentile, and mean counts over the frames.
+typedef struct measure_summary {
+    double median_ms, p99_ms, max_ms, walk_ms, test_ms;
+    double in_frustum, visible, tested;
+} measure_summary;
+
+/// False when memory runs out.
+bool measure_summarize(const measure_result *result, measure_summary *summary);
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int options_complain(const char *command, const char *what)
+{
+    fprintf(stderr, "occlude-bench %s: %s (see occlude-bench %s --help)\n", command, what, command);
+    return 2;
+}
+
+static int complain_about(const char *command, const char *argument, const char *what)
+{
+    char line[512];
+    snprintf(line, sizeof line, "%.200s: %s", argument, what);
+    options_complain(command, line);
+    return OPTIONS_BAD;
+}
+
+bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *value)
+{
+    if (*text < '0' || *text > '9') return false; // strtoull() takes signs and spaces
+    char *end;
+    errno = 0;
+    unsigned long long number = strtoull(text, &end, 10);
+    *value = number;
+    return errno == 0 && *end == '\0' && number >= low && number <= high;
+}
+
+static bool parse_real(const char *text, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    return end != text && *end == '\0' && isfinite(*value) && *value >= 0;
+}
+
+// Returns a complaint, or NULL.
+static const char *set_value(const options_entry *entry, char *text)
+{
+    uint64_t number;
+    if (entry->kind == OPTIONS_TEXT) {
+        *(const char **)entry->value = text;
+    } else if (entry->kind == OPTIONS_COUNT) {
+        if (!options_number(text, 1, UINT32_MAX, &number)) return "expected a number from 1";
+        *(uint32_t *)entry->value = (uint32_t)number;
+    } else if (!parse_real(text, entry->value)) {
+        return "expected a number that is not negative";
+    }
+    return NULL;
+}
+
+static const options_entry *find_option(const options_entry *entries, const char *name)
+{
+    for (; entries->name; entries++)
+        if (strcmp(entries->name, name) == 0) return entries;
+    return NULL;
+}
+
+static bool asks_for_help(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) return true;
+    return false;
+}
+
+int options_parse(int argc, char **argv, const options_entry *entries, char **words, int capacity)
+{
+    if (asks_for_help(argc, argv)) return OPTIONS_HELP;
+    int count = 0;
+    for (int i = 1; i < argc; i++) {
+        if (argv[i][0] != '-') {
+            if (count == capacity) return complain_about(argv[0], argv[i], "one word too many");
+            words[count++] = argv[i];
+            continue;
+        }
+        const options_entry *entry = find_option(entries, argv[i]);
+        if (!entry) return complain_about(argv[0], argv[i], "no such option");
+        if (entry->kind == OPTIONS_FLAG) {
+            *(bool *)entry->value = true;
+            continue;
+        }
+        if (i + 1 == argc) return complain_about(argv[0], argv[i], "expected a value after it");
+        const char *complaint = set_value(entry, argv[++i]);
+        if (complaint) return complain_about(argv[0], argv[i - 1], complaint);
+    }
+    return count;
+}
