@@ -2,6 +2,7 @@
 #include "path.h"
 
 #include "route.h"
+#include "steady.h"
 #include "voxels.h"
 
 #include <math.h>
@@ -168,9 +169,9 @@ static void look_along(const double from[3], const double to[3], double yaw, dou
         d[0] = level = 1;
         d[1] = 0;
     }
-    out[0] = (cos(yaw) * d[0] - sin(yaw) * d[2]) / level;
+    out[0] = (steady_cos(yaw) * d[0] - steady_sin(yaw) * d[2]) / level;
     out[1] = clamp(d[1] / level, -0.3, 0.3);
-    out[2] = (sin(yaw) * d[0] + cos(yaw) * d[2]) / level;
+    out[2] = (steady_sin(yaw) * d[0] + steady_cos(yaw) * d[2]) / level;
 }
 
 static pose pose_on_way(const way *w, double length, double share)
@@ -181,7 +182,7 @@ static pose pose_on_way(const way *w, double length, double share)
     point_along(w, along, p.eye);
     point_along(w, fmin(along + reach, length), ahead);
     point_along(w, fmax(along - reach, 0), behind);
-    look_along(behind, ahead, 0.6 * sin(7 * 2 * PI * share), p.direction);
+    look_along(behind, ahead, 0.6 * steady_sin(7 * 2 * PI * share), p.direction);
     return p;
 }
 
@@ -192,9 +193,9 @@ static pose pose_on_orbit(const model *m, double share)
     double angle = 2 * PI * share, radius = 0.9 * diagonal(m) + 1e-30, middle[3];
     for (int k = 0; k < 3; k++)
         middle[k] = 0.5 * (double)m->min[k] + 0.5 * (double)m->max[k];
-    p.eye[0] = middle[0] + radius * cos(angle);
+    p.eye[0] = middle[0] + radius * steady_cos(angle);
     p.eye[1] = 0.25 * (double)m->min[1] + 0.75 * (double)m->max[1];
-    p.eye[2] = middle[2] + radius * sin(angle);
+    p.eye[2] = middle[2] + radius * steady_sin(angle);
     for (int k = 0; k < 3; k++)
         p.direction[k] = middle[k] - p.eye[k];
     return p;

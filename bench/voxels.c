@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "voxels.h"
 
+#include "steady.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -207,7 +209,7 @@ static void choose_cells(const model *m, double cells, voxel_grid *g)
     if (longest == 0) longest = fmax(1e-30, fabs((double)m->max[0]) * 1e-6);
     for (int k = 0; k < 3; k++)
         volume *= fmax(extent[k], longest / 64);
-    g->cell = fmax(cbrt(volume / cells), longest / 512);
+    g->cell = fmax(steady_cbrt(volume / cells), longest / 512);
     g->count = 1;
     for (int k = 0; k < 3; k++) {
         g->size[k] = (int)ceil(extent[k] / g->cell) + 2;
