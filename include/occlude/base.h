@@ -45,7 +45,7 @@ typedef enum occ_result {
     OCC_ERROR_NOT_FINITE = -2,       ///< A NaN or an infinity among the numbers passed in.
     OCC_ERROR_OUT_OF_RANGE = -3,     ///< A finite coordinate beyond OCC_MAX_COORDINATE.
     OCC_ERROR_STALE_HANDLE = -4,     ///< The object or occluder was removed, or never existed here.
-    OCC_ERROR_OUT_OF_MEMORY = -5,    ///< The allocator returned NULL.
+    OCC_ERROR_OUT_OF_MEMORY = -5,    ///< The allocator or the device has no more memory.
     OCC_ERROR_BUFFER_TOO_SMALL = -6, ///< The array is too short; the size needed was written.
     OCC_ERROR_NOT_COMMITTED = -7,    ///< The scene has edits that occ_scene_commit() has not seen.
     OCC_ERROR_DEGENERATE_CAMERA = -8, ///< The matrix has no eye: it is singular.

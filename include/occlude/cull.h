@@ -73,7 +73,7 @@ typedef struct occ_cull_desc {
     float min_area;
     uint32_t max_occluders; ///< Most occluders used in a frame, nearest first. Default 0: 1024.
     /// A node with at most so many objects is handed to the parallel test as it is. Small suits a
-    /// CPU, large a device; it may change what is missed. Default 0: 32.
+    /// CPU, large a device; it may change what is missed. Default 0: 64.
     uint32_t grain;
 } occ_cull_desc;
 

@@ -59,7 +59,7 @@ typedef struct occ_scene_desc {
     occ_logger logger;       ///< Default: silent.
     uint32_t object_count;   ///< Objects to reserve room for. Default 0: grow as they come.
     uint32_t occluder_count; ///< Occluders to reserve room for. Default 0: grow as they come.
-    uint32_t leaf_objects;   ///< Most objects in an octree leaf, 1 to 1024. Default 32.
+    uint32_t leaf_objects;   ///< Most objects in an octree leaf, 1 to 1024. Default 64.
 } occ_scene_desc;
 
 /// Objects, occluders, and an octree over each. See the thread rules in occlude.h.

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef OCC_BOX_H
+#define OCC_BOX_H
+
+#include <occlude/scene.h>
+
+// OCC_SUCCESS, or what is wrong with the numbers of a box.
+occ_result occ_box_check(const occ_box *box);
+
+// The axis-aligned bounds of a box, rounded outward by at most two floats.
+void occ_box_bounds(const occ_box *box, float min[3], float max[3]);
+
+#endif

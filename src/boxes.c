@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "boxes.h"
+
+#include <string.h>
+
+static size_t bytes_of(const occ_boxes *boxes)
+{
+    return (size_t)boxes->stride * OCC_BOX_COLUMNS * sizeof(float);
+}
+
+occ_result occ_boxes_reserve(occ_hooks *hooks, occ_boxes *boxes, size_t capacity)
+{
+    if (boxes->data && capacity <= boxes->stride - OCC_BOX_PADDING) return OCC_SUCCESS;
+    if (!capacity) return OCC_SUCCESS;
+    size_t stride = (capacity + OCC_BOX_PADDING + OCC_BOX_LANES - 1) / OCC_BOX_LANES;
+    stride *= OCC_BOX_LANES;
+    if (stride > UINT32_MAX || stride > SIZE_MAX / (OCC_BOX_COLUMNS * sizeof(float))) {
+        return OCC_ERROR_LIMIT;
+    }
+    occ_boxes grown = {NULL, boxes->count, (uint32_t)stride};
+    grown.data = occ_alloc(hooks, bytes_of(&grown));
+    if (!grown.data) return OCC_ERROR_OUT_OF_MEMORY;
+    size_t used = (size_t)boxes->count * sizeof(float), room = stride * sizeof(float);
+    for (uint32_t c = 0; c < OCC_BOX_COLUMNS; c++) {
+        float *column = occ_boxes_column(&grown, c);
+        if (used) memcpy(column, occ_boxes_column(boxes, c), used);
+        memset((char *)column + used, 0, room - used);
+    }
+    occ_boxes_free(hooks, boxes);
+    *boxes = grown;
+    return OCC_SUCCESS;
+}
+
+void occ_boxes_free(occ_hooks *hooks, occ_boxes *boxes)
+{
+    occ_free(hooks, boxes->data, bytes_of(boxes));
+    *boxes = (occ_boxes){NULL, 0, 0};
+}
+
+occ_box occ_boxes_get(const occ_boxes *boxes, uint32_t row)
+{
+    occ_box box;
+    for (uint32_t j = 0; j < 3; j++)
+        box.center[j] = occ_boxes_column(boxes, j)[row];
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t j = 0; j < 3; j++)
+            box.axis[k][j] = occ_boxes_column(boxes, 3 + 3 * k + j)[row];
+    return box;
+}
+
+void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box)
+{
+    for (uint32_t j = 0; j < 3; j++)
+        occ_boxes_column(boxes, j)[row] = box->center[j];
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t j = 0; j < 3; j++)
+            occ_boxes_column(boxes, 3 + 3 * k + j)[row] = box->axis[k][j];
+}
+
+void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch)
+{
+    for (uint32_t c = 0; c < OCC_BOX_COLUMNS; c++) {
+        float *column = occ_boxes_column(boxes, c);
+        for (uint32_t i = 0; i < count; i++)
+            scratch[i] = column[source[i]];
+        if (count) memcpy(column, scratch, (size_t)count * sizeof(float));
+    }
+    boxes->count = count;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A table of boxes, one column per number, so that sixteen neighbours load as vectors and a range
+// goes to a device as twelve copies.
+//
+//     data: | center x ... | center y ... | center z ... | axis[0] x ... | ... | axis[2] z ... |
+//            <- stride ->
+#ifndef OCC_BOXES_H
+#define OCC_BOXES_H
+
+#include "memory.h"
+
+#include <occlude/scene.h>
+
+#define OCC_BOX_COLUMNS 12u
+#define OCC_BOX_LANES   16u
+#define OCC_BOX_PADDING (OCC_BOX_LANES - 1u) // rows that a vector load from the last row touches
+
+typedef struct occ_boxes {
+    float *data;
+    uint32_t count;
+    uint32_t stride; // a multiple of OCC_BOX_LANES; the last OCC_BOX_PADDING rows are never used
+} occ_boxes;
+
+static inline float *occ_boxes_column(const occ_boxes *boxes, uint32_t column)
+{
+    return boxes->data + (size_t)column * boxes->stride;
+}
+
+// Makes room for `capacity` boxes. On failure nothing changes.
+occ_result occ_boxes_reserve(occ_hooks *hooks, occ_boxes *boxes, size_t capacity);
+
+void occ_boxes_free(occ_hooks *hooks, occ_boxes *boxes);
+
+occ_box occ_boxes_get(const occ_boxes *boxes, uint32_t row);
+void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box);
+
+// Row i becomes what row source[i] was, for i < count; `count` becomes the new length. `scratch`
+// has room for `count` floats.
+void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch);
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frustum planes are sums of the matrix's rows (Gribb and Hartmann, 2001); the eye is where the
+// rows of x, y and w all vanish. Each sum of two floats is exact in double or rounds by 2^-53 of
+// itself.
+#include "camera.h"
+
+#include "rounding.h"
+#include "vector.h"
+
+#include <cglm/cglm.h>
+#include <string.h>
+
+typedef double row4[4];
+
+// Solves p_i . x + d_i = 0 for three planes by Cramer's rule. False if they meet in no single
+// point.
+static bool meet(const double *p, const double *q, const double *r, double x[3])
+{
+    double qr[3], rp[3], pq[3];
+    occ_cross(q, r, qr);
+    occ_cross(r, p, rp);
+    occ_cross(p, q, pq);
+    double determinant = occ_dot(p, qr);
+    double size = occ_largest(p) * occ_largest(q) * occ_largest(r);
+    if (!(fabs(determinant) > size * 1e-12)) return false;
+    for (int j = 0; j < 3; j++)
+        x[j] = -(p[3] * qr[j] + q[3] * rp[j] + r[3] * pq[j]) / determinant;
+    return isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
+}
+
+static occ_result check_numbers(const occ_camera_desc *desc, const char **reason)
+{
+    for (int i = 0; i < 16; i++) {
+        if (!isfinite(desc->view_projection[i])) {
+            *reason = "the view-projection matrix is not finite";
+            return OCC_ERROR_NOT_FINITE;
+        }
+    }
+    for (int j = 0; j < 3; j++) {
+        double eye = desc->eye ? desc->eye[j] : 0.0, origin = desc->origin ? desc->origin[j] : 0.0;
+        if (!isfinite(eye) || !isfinite(origin)) {
+            *reason = "the eye or the origin is not finite";
+            return OCC_ERROR_NOT_FINITE;
+        }
+        if (fabs(eye) > (double)OCC_MAX_COORDINATE || fabs(origin) > (double)OCC_MAX_COORDINATE) {
+            *reason = "the eye or the origin is beyond OCC_MAX_COORDINATE";
+            return OCC_ERROR_OUT_OF_RANGE;
+        }
+    }
+    if ((unsigned)desc->depth > OCC_DEPTH_ONE_TO_ZERO) {
+        *reason = "there is no such depth range";
+        return OCC_ERROR_INVALID_ARGUMENT;
+    }
+    return OCC_SUCCESS;
+}
+
+static void add_rows(const double *a, double sign, const double *b, double *sum)
+{
+    for (int i = 0; i < 4; i++)
+        sum[i] = a[i] + sign * b[i];
+}
+
+// The six planes in the matrix's own coordinates.
+static void frustum_planes(const row4 *row, occ_depth depth, row4 *plane)
+{
+    static const double nothing[4];
+    for (int axis = 0; axis < 2; axis++) {
+        add_rows(row[3], 1.0, row[axis], plane[2 * axis]);
+        add_rows(row[3], -1.0, row[axis], plane[2 * axis + 1]);
+    }
+    double *near = plane[OCC_NEAR_PLANE], *far = plane[OCC_NEAR_PLANE + 1];
+    switch (depth) {
+    case OCC_DEPTH_ZERO_TO_ONE:
+        add_rows(nothing, 1.0, row[2], near);
+        add_rows(row[3], -1.0, row[2], far);
+        break;
+    case OCC_DEPTH_ONE_TO_ZERO:
+        add_rows(row[3], -1.0, row[2], near);
+        add_rows(nothing, 1.0, row[2], far);
+        break;
+    default:
+        add_rows(row[3], 1.0, row[2], near);
+        add_rows(row[3], -1.0, row[2], far);
+    }
+}
+
+// The direction to the viewer is against the near plane's normal; without depth there is none.
+static bool orthographic_direction(const row4 *row, const double *near, double toward[3])
+{
+    double along[3];
+    occ_cross(row[0], row[1], along);
+    double facing = occ_dot(along, near), size = occ_largest(along);
+    if (!(size > 1e-12 * occ_largest(row[0]) * occ_largest(row[1])) || facing == 0.0) return false;
+    double scale = occ_unit_scale(size) * (facing > 0.0 ? -1.0 : 1.0);
+    for (int j = 0; j < 3; j++)
+        toward[j] = along[j] * scale;
+    return true;
+}
+
+// Moves a plane to be relative to `own`, the eye in the matrix's coordinates, scales it and makes
+// the floats, rounded outward. False if it is no plane (an infinite far plane).
+static bool set_plane(occ_camera *camera, uint32_t p, const double *plane, const double own[3],
+                      bool through_eye)
+{
+    double size = occ_largest(plane);
+    if (size == 0.0) return false;
+    double scale = occ_unit_scale(size), error = 0.0, d = 0.0;
+    if (!through_eye) {
+        d = occ_dot(plane, own) + plane[3];
+        error = (occ_dot_magnitude(plane, own) + fabs(plane[3])) * 0x1p-50;
+    }
+    float *constant = camera->constants.plane[p];
+    for (int j = 0; j < 3; j++) {
+        camera->plane[p][j] = plane[j] * scale;
+        constant[j] = (float)(plane[j] * scale);
+    }
+    camera->plane[p][3] = d * scale;
+    double wide = (d + error) * scale;
+    if (!(fabs(wide) < 1e30)) return false; // too far to matter, or to be told from infinity
+    constant[3] = occ_round_up(wide + fabs(wide) * 0x1p-21);
+    return true;
+}
+
+// The corners of the near plane, if the eye lies in front of it.
+static void find_near_corners(occ_camera *camera)
+{
+    const double *near = camera->plane[OCC_NEAR_PLANE];
+    camera->clips_near = camera->orthographic || near[3] < 0.0;
+    if ((camera->planes & 0x1fu) != 0x1fu) camera->clips_near = false;
+    for (int c = 0; c < 4 && camera->clips_near; c++) {
+        const double *horizontal = camera->plane[c & 1], *vertical = camera->plane[2 + (c >> 1)];
+        if (!meet(horizontal, vertical, near, camera->near_corner[c])) {
+            camera->planes &= ~(1u << OCC_NEAR_PLANE); // a frustum without a near rectangle
+            camera->clips_near = false;
+        }
+    }
+}
+
+// The area that an orthographic camera shows, from two sides of its near rectangle.
+static void measure_view(occ_camera *camera)
+{
+    if (!camera->orthographic || !camera->clips_near) return;
+    double side[2][3], normal[3];
+    for (int j = 0; j < 3; j++) {
+        side[0][j] = camera->near_corner[1][j] - camera->near_corner[0][j];
+        side[1][j] = camera->near_corner[2][j] - camera->near_corner[0][j];
+    }
+    occ_cross(side[0], side[1], normal);
+    camera->view_area = sqrt(occ_dot(normal, normal));
+}
+
+static void set_constants(occ_camera *camera)
+{
+    double reach = 0.0;
+    for (int j = 0; j < 3; j++) {
+        float high = (float)camera->eye[j];
+        camera->constants.high[j] = high;
+        camera->constants.low[j] = (float)(camera->eye[j] - (double)high);
+        reach += fabs(camera->eye[j]);
+    }
+    camera->constants.slack_floor = occ_round_up(reach * 0x1p-46 + 0x1p-80);
+}
+
+occ_result occ_camera_init(occ_camera *camera, const occ_camera_desc *desc, const char **reason)
+{
+    *camera = (occ_camera){.orthographic = false};
+    occ_result result = check_numbers(desc, reason);
+    if (result) return result;
+    mat4 rows;
+    memcpy(rows, desc->view_projection, sizeof rows); // the caller's floats need not be aligned
+    glm_mat4_transpose(rows);
+    row4 row[4], plane[OCC_FRUSTUM_PLANES];
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            row[r][c] = (double)rows[r][c];
+    frustum_planes((const row4 *)row, desc->depth, plane);
+    camera->orthographic = occ_largest(row[3]) == 0.0;
+    double own[3];
+    bool found =
+        camera->orthographic
+            ? meet(row[0], row[1], plane[OCC_NEAR_PLANE], own) &&
+                  orthographic_direction((const row4 *)row, plane[OCC_NEAR_PLANE], camera->toward)
+            : meet(row[0], row[1], row[3], own);
+    if (!found) {
+        *reason = "the view-projection matrix is singular: it has no eye";
+        return OCC_ERROR_DEGENERATE_CAMERA;
+    }
+    for (int j = 0; j < 3; j++) {
+        bool given = desc->eye && !camera->orthographic;
+        camera->eye[j] = given ? desc->eye[j] : own[j] + (desc->origin ? desc->origin[j] : 0.0);
+        if (fabs(camera->eye[j]) > (double)OCC_MAX_COORDINATE) {
+            *reason = "the eye is beyond OCC_MAX_COORDINATE";
+            return OCC_ERROR_OUT_OF_RANGE;
+        }
+    }
+    for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
+        bool through_eye = !camera->orthographic && p < OCC_NEAR_PLANE;
+        if (set_plane(camera, p, plane[p], own, through_eye)) camera->planes |= 1u << p;
+    }
+    find_near_corners(camera);
+    measure_view(camera);
+    set_constants(camera);
+    return OCC_SUCCESS;
+}

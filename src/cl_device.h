@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// An OpenCL device with a queue and the built kernels.
+#ifndef OCC_CL_DEVICE_H
+#define OCC_CL_DEVICE_H
+
+#include "memory.h"
+
+#include <occlude/opencl.h>
+
+typedef struct occ_cl_device {
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    cl_program program;
+    cl_kernel test;
+    cl_ulong largest_buffer; // bytes
+} occ_cl_device;
+
+// Finds the device, or takes the caller's, and builds the kernels. On failure nothing is left open.
+occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc);
+
+void occ_cl_device_close(occ_cl_device *device);
+
+// Logs a failed call and returns the result that it amounts to.
+occ_result occ_cl_fail(const occ_hooks *hooks, cl_int error, const char *call);
+
+#endif

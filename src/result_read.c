@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Handing a view's result to the caller's arrays.
+#include "view_data.h"
+
+#include "log.h"
+
+#include <string.h>
+
+// Sets *count to what is needed and says whether the caller's array holds it.
+static occ_result fits(const occ_view *view, const void *array, size_t capacity, size_t needed,
+                       size_t *count)
+{
+    if (count) *count = needed;
+    if (needed <= capacity && (array || !needed)) return OCC_SUCCESS;
+    if (!array && capacity) {
+        return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "the array is NULL");
+    }
+    // Asking for the size with capacity 0 is no mistake, so it is not logged.
+    if (!capacity) return OCC_ERROR_BUFFER_TOO_SMALL;
+    return occ_fail(&view->hooks, OCC_ERROR_BUFFER_TOO_SMALL, "%zu elements, %zu are needed",
+                    capacity, needed);
+}
+
+static occ_result check(const occ_view *view, size_t *count)
+{
+    if (count) *count = 0;
+    if (!view) return OCC_ERROR_INVALID_ARGUMENT;
+    if (view->has_result) return OCC_SUCCESS;
+    return occ_fail(&view->hooks, OCC_ERROR_NO_RESULT, "call occ_cull() first");
+}
+
+occ_result occ_view_read_mask(const occ_view *view, uint32_t *words, size_t capacity, size_t *count)
+{
+    occ_result result = check(view, count);
+    if (!result) result = fits(view, words, capacity, view->mask.count, count);
+    if (!result && view->mask.count) {
+        memcpy(words, view->mask.data, (size_t)view->mask.count * sizeof *words);
+    }
+    return result;
+}
+
+occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots, size_t capacity,
+                                 size_t *count)
+{
+    occ_result result = check(view, count);
+    if (!result) result = fits(view, slots, capacity, view->frame.stats.visible, count);
+    if (result) return result;
+    const uint32_t *mask = view->mask.data;
+    for (uint32_t w = 0; w < view->mask.count; w++)
+        for (uint32_t bits = mask[w]; bits; bits &= bits - 1)
+            *slots++ = 32 * w + (uint32_t)__builtin_ctz(bits);
+    return OCC_SUCCESS;
+}
+
+occ_result occ_view_read_occluders(const occ_view *view, occ_occluder *occluders, size_t capacity,
+                                   size_t *count)
+{
+    occ_result result = check(view, count);
+    if (!result) result = fits(view, occluders, capacity, view->frame.sources.count, count);
+    if (!result && view->frame.sources.count) {
+        memcpy(occluders, view->frame.sources.data,
+               (size_t)view->frame.sources.count * sizeof *occluders);
+    }
+    return result;
+}
+
+bool occ_view_is_visible(const occ_view *view, occ_object object)
+{
+    uint32_t slot = object.index - 1u;
+    if (!view || !view->has_result || slot / 32 >= view->mask.count) return false;
+    return ((const uint32_t *)view->mask.data)[slot / 32] >> slot % 32 & 1u;
+}
+
+occ_result occ_view_get_stats(const occ_view *view, occ_view_stats *stats)
+{
+    if (!stats) return OCC_ERROR_INVALID_ARGUMENT;
+    occ_result result = check(view, NULL);
+    if (!result) *stats = view->frame.stats;
+    return result;
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadow volumes of boxes (Crow, Shadow Algorithms for Computer Graphics, SIGGRAPH 1977): the
+// planes through the eye and the silhouette edges, and the planes of the faces that the eye sees.
+//
+// Why it is safe. Let V be any set of faces, at most one of each pair, that the eye is in front of
+// for certain. The planes through those edges of V that only one face of V has, each turned towards
+// that face, cut out the kernel of the polygon that V shows, and the kernel lies inside the polygon
+// whether that is convex or not. A point in it and behind all planes of V is behind a point of some
+// face of V. So a face that is doubtful may be left out, and V = the certain faces is sound even
+// where it is not the full silhouette. Set-up is in double; what it rounds is moved inward.
+#include "shadow.h"
+
+#include "rounding.h"
+#include "vector.h"
+
+#define EPS 0x1p-53
+
+// An occluder relative to the eye.
+typedef struct solid {
+    double center[3];
+    double axis[3][3];
+    double normal[3]
+                 [3]; // of the faces: normal[k] = axis[k+1] x axis[k+2]; each component within EPS
+    double size[3];   // |center_j| + sum |axis_j|: bounds every corner's coordinate
+} solid;
+
+// A face that the eye sees for certain: center + sign * axis[k].
+typedef struct face {
+    int sign;         // 0: not seen
+    double center[3]; // its middle
+    double facing;    // an outward normal is facing * normal[k], facing = ±1
+    double margin;    // by how much the eye is in front of it, relative to the error bound
+} face;
+
+static void set_solid(solid *s, const occ_camera *camera, const occ_box *box)
+{
+    for (int j = 0; j < 3; j++) {
+        s->center[j] = (double)box->center[j] - camera->eye[j];
+        s->size[j] = fabs(s->center[j]);
+        for (int k = 0; k < 3; k++) {
+            s->axis[k][j] = (double)box->axis[k][j];
+            s->size[j] += fabs(s->axis[k][j]);
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        occ_cross(s->axis[(k + 1) % 3], s->axis[(k + 2) % 3], s->normal[k]);
+}
+
+// Decides whether the eye sees a face of pair k, and which. With the eye at 0 and G = n.c, the box
+// spans |n.x - G| <= D = |n.a_k|; the eye is in front of the nearer face if |G| > D.
+static void see_face(const solid *s, const occ_camera *camera, int k, double volume, face *f)
+{
+    const double *n = s->normal[k];
+    double side, margin, error;
+    if (camera->orthographic) {
+        side = -occ_dot(n, camera->toward);
+        margin = fabs(side);
+        error = 8.0 * EPS * occ_dot_magnitude(n, camera->toward);
+    } else {
+        side = occ_dot(n, s->center);
+        margin = fabs(side) - fabs(occ_dot(n, s->axis[k]));
+        error = 16.0 * EPS * occ_dot_magnitude(n, s->size);
+    }
+    f->sign = 0;
+    f->margin = error > 0.0 ? margin / error : 0.0;
+    if (!(margin > error)) return;
+    // Towards the eye is against `side`. Which of the two faces lies there depends on the sign of
+    // the volume n.a_k; of a flat box either will do, since each is a parallelogram of the box.
+    f->facing = side > 0.0 ? -1.0 : 1.0;
+    f->sign = (volume < 0.0) != (side > 0.0) ? -1 : 1;
+    for (int j = 0; j < 3; j++)
+        f->center[j] = s->center[j] + (double)f->sign * s->axis[k][j];
+}
+
+// Fills in the faces of V. Where the box may be flat the orientation of its corners is in doubt,
+// and V is the one face that is seen best.
+static int see_faces(const solid *s, const occ_camera *camera, face seen[3])
+{
+    double volume = occ_dot(s->normal[0], s->axis[0]);
+    double doubt = 16.0 * EPS * occ_dot_magnitude(s->normal[0], s->axis[0]);
+    bool flat = !(fabs(volume) > doubt);
+    int count = 0, best = 0;
+    for (int k = 0; k < 3; k++) {
+        see_face(s, camera, k, volume, &seen[k]);
+        count += seen[k].sign != 0;
+        if (seen[k].margin > seen[best].margin) best = k;
+    }
+    if (!flat || count <= 1) return count;
+    for (int k = 0; k < 3; k++)
+        if (k != best) seen[k].sign = 0;
+    return 1;
+}
+
+// Stores n.x + d > 0, where the components of n are off by at most `normal_error` and d by at most
+// `d_error`. False if n is too short for its error: then its direction means nothing.
+static bool add_plane(occ_shadow *shadow, const double n[3], double normal_error, double d,
+                      double d_error)
+{
+    double size = occ_largest(n);
+    if (!(size > 0.0) || !(size < 1e200) || normal_error > size * 0x1p-26) return false;
+    double scale = occ_unit_scale(size);
+    float *plane = shadow->plane[shadow->planes++];
+    for (int j = 0; j < 3; j++)
+        plane[j] = (float)(n[j] * scale);
+    double inward = (d - d_error) * scale;
+    plane[3] = occ_round_down(inward - fabs(inward) * 0x1p-21);
+    return true;
+}
+
+// The plane of a visible face: behind it is inside.
+static bool add_face(occ_shadow *shadow, const solid *s, const face *f, int k)
+{
+    double inward[3];
+    for (int j = 0; j < 3; j++)
+        inward[j] = -f->facing * s->normal[k][j];
+    double d = -occ_dot(inward, f->center);
+    double error = 16.0 * EPS * occ_dot_magnitude(inward, s->size);
+    return add_plane(shadow, inward, EPS * occ_largest(inward), d, error);
+}
+
+// An edge of face k: where the face ends on the `side` of axis[across]; it runs along axis[along].
+typedef struct edge {
+    int k, side, across, along;
+} edge;
+
+// Bounds the error of every component of ray x axis[along], where |ray_j| <= from[j].
+static double cross_error(const double from[3], const double axis[3])
+{
+    double most = 0.0;
+    for (int j = 0; j < 3; j++) {
+        int p = (j + 1) % 3, q = (j + 2) % 3;
+        most = fmax(most, from[p] * fabs(axis[q]) + from[q] * fabs(axis[p]));
+    }
+    return 8.0 * EPS * most;
+}
+
+// The plane through the eye and an edge, turned so that the face's middle is inside.
+static bool add_silhouette(occ_shadow *shadow, const solid *s, const occ_camera *camera,
+                           const face *f, const edge *e)
+{
+    double point[3], ray[3], bound[3], n[3];
+    for (int j = 0; j < 3; j++) {
+        point[j] = f->center[j] + (double)e->side * s->axis[e->across][j];
+        ray[j] = camera->orthographic ? -camera->toward[j] : point[j];
+        bound[j] = camera->orthographic ? fabs(ray[j]) : s->size[j];
+    }
+    occ_cross(ray, s->axis[e->along], n);
+    double error = cross_error(bound, s->axis[e->along]), d = 0.0, d_error = 0.0;
+    // With a and b for the two axes and m for the face's middle, (m + side a) x b . m is
+    // side (a x b) . m; a x b is ±normal[k], and see_face() knows the sign of normal[k] . m.
+    bool cyclic = e->across == (e->k + 1) % 3;
+    bool inward = (f->facing < 0.0) == (e->side > 0) ? cyclic : !cyclic;
+    for (int j = 0; j < 3; j++)
+        n[j] = inward ? n[j] : -n[j];
+    if (camera->orthographic) {
+        d = -occ_dot(n, point);
+        d_error = 16.0 * EPS * occ_dot_magnitude(n, s->size) + 3.0 * error * occ_largest(s->size);
+    }
+    return add_plane(shadow, n, error, d, d_error);
+}
+
+// All silhouette edges of V: those whose other face is not in V.
+static bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera *camera,
+                            const face seen[3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (!seen[k].sign) continue;
+        for (int i = 0; i < 4; i++) {
+            int turn = 1 + i / 2, side = i % 2 ? -1 : 1;
+            edge e = {k, side, (k + turn) % 3, (k + 3 - turn) % 3};
+            if (seen[e.across].sign == side) continue;
+            if (!add_silhouette(shadow, s, camera, &seen[k], &e)) return false;
+        }
+    }
+    return true;
+}
+
+// The near plane cuts away what lies between it and the eye. The occluder is whole if all of that
+// is in front of one of its visible faces, or if the occluder lies beyond the near plane.
+static bool survives_near(const solid *s, const occ_camera *camera, const face seen[3])
+{
+    if (!camera->clips_near) return true;
+    for (int k = 0; k < 3; k++) {
+        if (!seen[k].sign) continue;
+        int in_front = 0;
+        for (int c = 0; c < 4; c++) {
+            double offset[3], size[3];
+            for (int j = 0; j < 3; j++) {
+                offset[j] = camera->near_corner[c][j] - seen[k].center[j];
+                size[j] = fabs(camera->near_corner[c][j]) + s->size[j];
+            }
+            double height = seen[k].facing * occ_dot(s->normal[k], offset);
+            in_front += height > occ_dot_magnitude(s->normal[k], size) * 1e-9;
+        }
+        if (in_front == 4) return true;
+    }
+    const double *near = camera->plane[OCC_NEAR_PLANE];
+    double reach = 0.0;
+    for (int k = 0; k < 3; k++)
+        reach += fabs(occ_dot(near, s->axis[k]));
+    double size = occ_dot_magnitude(near, s->size) + fabs(near[3]);
+    return occ_dot(near, s->center) + near[3] - reach > size * 1e-9;
+}
+
+bool occ_shadow_init(occ_shadow *shadow, const occ_camera *camera, const occ_box *box,
+                     uint32_t owner)
+{
+    solid s;
+    face seen[3];
+    set_solid(&s, camera, box);
+    if (!see_faces(&s, camera, seen)) return false;
+    if (!survives_near(&s, camera, seen)) return false;
+    *shadow = (occ_shadow){.owner = owner};
+    if (!add_silhouettes(shadow, &s, camera, seen)) return false;
+    for (int k = 0; k < 3; k++)
+        if (seen[k].sign && !add_face(shadow, &s, &seen[k], k)) return false;
+    return true;
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views, and the frame from end to end: select, walk, test, hand over.
+#include "view_data.h"
+
+#include "log.h"
+
+#include <string.h>
+#include <time.h>
+
+#define DEFAULT_MIN_AREA      2e-4f
+#define DEFAULT_MAX_OCCLUDERS 1024u
+#define DEFAULT_GRAIN         64u
+
+static double now_ms(void)
+{
+    struct timespec time;
+    (void)timespec_get(&time, TIME_UTC);
+    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
+}
+
+static occ_result make_backend(occ_view *view, const occ_view_desc *desc, const void *cl_desc)
+{
+    switch (desc->backend) {
+    case OCC_BACKEND_OPENMP:
+        return occ_backend_openmp_create(&view->hooks, desc->threads, view->frame.lanes,
+                                         &view->backend);
+    case OCC_BACKEND_PLAIN:
+        return occ_backend_plain_create(&view->hooks, &view->backend);
+    case OCC_BACKEND_OPENCL:
+#if OCC_HAVE_OPENCL
+        return occ_backend_opencl_create(&view->hooks, cl_desc, &view->backend);
+#else
+        (void)cl_desc;
+        return occ_fail(&view->hooks, OCC_ERROR_UNSUPPORTED, "this build has no OpenCL");
+#endif
+    }
+    return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no backend %d",
+                    (int)desc->backend);
+}
+
+occ_result occ_view_make(const occ_view_desc *desc, const void *cl_desc, occ_view **view)
+{
+    occ_hooks hooks;
+    occ_result result = occ_hooks_init(&hooks, &desc->allocator, &desc->logger);
+    if (result) return occ_fail(&hooks, result, "an allocator needs both of its functions");
+    if (desc->threads > OCC_MOST_THREADS) {
+        return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "%u threads, at most %u", desc->threads,
+                        OCC_MOST_THREADS);
+    }
+    occ_view *made = occ_alloc(&hooks, sizeof *made);
+    if (!made) return occ_fail(&hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for a view");
+    *made = (occ_view){.hooks = hooks, .mask = OCC_ARRAY(uint32_t)};
+    occ_frame_init(&made->frame, &made->hooks, occ_lanes_choose());
+    result = make_backend(made, desc, cl_desc);
+    if (result) {
+        occ_log(&hooks, OCC_LOG_ERROR, "%s: no view was made", occ_result_name(result));
+        occ_view_destroy(made);
+        return result;
+    }
+    occ_log(&hooks, OCC_LOG_INFO, "view: backend %s, %s lanes", made->backend->ops->name,
+            made->frame.lanes->name);
+    *view = made;
+    return OCC_SUCCESS;
+}
+
+occ_result occ_view_create(const occ_view_desc *desc, occ_view **view)
+{
+    static const occ_view_desc defaults;
+    if (!view) return OCC_ERROR_INVALID_ARGUMENT;
+    *view = NULL;
+    return occ_view_make(desc ? desc : &defaults, NULL, view);
+}
+
+void occ_view_destroy(occ_view *view)
+{
+    if (!view) return;
+    if (view->backend) view->backend->ops->destroy(view->backend);
+    occ_frame_free(&view->frame);
+    occ_array_free(&view->hooks, &view->mask);
+    occ_hooks hooks = view->hooks;
+    occ_free(&hooks, view, sizeof *view);
+}
+
+static occ_result set_knobs(occ_view *view, const occ_cull_desc *desc)
+{
+    occ_cull_desc *knobs = &view->frame.knobs;
+    *knobs = (occ_cull_desc){.method = OCC_METHOD_SINGLE};
+    if (desc) *knobs = *desc;
+    if ((unsigned)knobs->method > OCC_METHOD_PAIRWISE) {
+        return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no method %d",
+                        (int)knobs->method);
+    }
+    if (!(knobs->min_area >= 0.0f)) {
+        return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "min_area is negative or NaN");
+    }
+    if (knobs->min_area == 0.0f) knobs->min_area = DEFAULT_MIN_AREA;
+    if (!knobs->max_occluders) knobs->max_occluders = DEFAULT_MAX_OCCLUDERS;
+    if (!knobs->grain) knobs->grain = DEFAULT_GRAIN;
+    return OCC_SUCCESS;
+}
+
+static occ_result set_camera(occ_view *view, const occ_camera_desc *camera)
+{
+    const char *reason = "";
+    occ_result result = occ_camera_init(&view->frame.camera, camera, &reason);
+    return result ? occ_fail(&view->hooks, result, "%s", reason) : OCC_SUCCESS;
+}
+
+static occ_result run_test(occ_view *view)
+{
+    occ_frame *frame = &view->frame;
+    frame->verdicts.count = 0;
+    if (!occ_array_extend(&view->hooks, &frame->verdicts, (size_t)frame->ranges.count + 1)) {
+        return OCC_ERROR_OUT_OF_MEMORY;
+    }
+    frame->verdicts.count = frame->ranges.count;
+    occ_test_job job = {.scene = frame->scene,
+                        .eye = &frame->camera.constants,
+                        .shadows = frame->shadows.data,
+                        .shadow_count = frame->shadows.count,
+                        .ranges = frame->ranges.data,
+                        .range_count = frame->ranges.count,
+                        .candidates = frame->candidates.data,
+                        .candidate_count = frame->candidates.count,
+                        .verdicts = frame->verdicts.data};
+    occ_tester *backend = view->backend;
+    occ_result result = backend->ops->upload(backend, frame->scene);
+    if (!result && job.range_count) result = backend->ops->test(backend, &job);
+    if (!result && job.range_count) result = backend->ops->read(backend, &job);
+    return result;
+}
+
+// Scatters the ranges' verdicts, which speak of rows, into the mask, which speaks of slots.
+static occ_result hand_over(occ_view *view)
+{
+    const occ_frame *frame = &view->frame;
+    uint32_t slots = frame->scene->objects.count;
+    view->mask.count = 0;
+    uint32_t *mask = occ_array_extend(&view->hooks, &view->mask, OCC_MASK_WORDS(slots) + 1);
+    if (!mask) return OCC_ERROR_OUT_OF_MEMORY;
+    view->mask.count = (uint32_t)OCC_MASK_WORDS(slots);
+    memset(mask, 0, OCC_MASK_WORDS(slots) * sizeof *mask);
+    const occ_range *ranges = frame->ranges.data;
+    const occ_verdict *verdicts = frame->verdicts.data;
+    const uint32_t *slot_of = occ_scene_slot_of(frame->scene);
+    occ_view_stats *stats = &view->frame.stats;
+    for (uint32_t i = 0; i < 2 * frame->ranges.count; i++) {
+        uint32_t first = ranges[i / 2].first + 32 * (i % 2);
+        for (uint32_t bits = verdicts[i / 2].visible[i % 2]; bits; bits &= bits - 1) {
+            uint32_t slot = slot_of[first + (uint32_t)__builtin_ctz(bits)];
+            mask[slot / 32] |= 1u << slot % 32;
+            stats->visible++;
+        }
+        stats->test_outside += (uint32_t)__builtin_popcount(verdicts[i / 2].outside[i % 2]);
+    }
+    stats->test_hidden = stats->tested - stats->test_outside - stats->visible;
+    return OCC_SUCCESS;
+}
+
+static occ_result run_frame(occ_view *view)
+{
+    occ_frame *frame = &view->frame;
+    double start = now_ms();
+    frame->stats = (occ_view_stats){.objects = frame->scene->objects.taken};
+    occ_result result = occ_select(frame);
+    if (!result) result = occ_walk(frame);
+    double walked = now_ms();
+    if (!result) result = run_test(view);
+    if (!result) result = hand_over(view);
+    if (result == OCC_ERROR_OUT_OF_MEMORY) {
+        occ_fail(&view->hooks, result, "no memory for the scratch of a frame");
+    }
+    frame->stats.walk_ms = walked - start;
+    frame->stats.test_ms = now_ms() - walked;
+    frame->stats.bytes = view->hooks.bytes;
+    frame->stats.device_bytes = view->backend->device_bytes;
+    return result;
+}
+
+occ_result occ_cull(occ_view *view, const occ_scene *scene, const occ_camera_desc *camera,
+                    const occ_cull_desc *desc)
+{
+    if (!view) return OCC_ERROR_INVALID_ARGUMENT;
+    view->has_result = false;
+    if (!scene || !camera) {
+        return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "the scene or camera is NULL");
+    }
+    if (!occ_scene_is_committed(scene)) {
+        return occ_fail(&view->hooks, OCC_ERROR_NOT_COMMITTED, "call occ_scene_commit() first");
+    }
+    occ_result result = set_knobs(view, desc);
+    if (!result) result = set_camera(view, camera);
+    if (result) return result;
+    view->frame.scene = scene;
+    result = run_frame(view);
+    view->frame.scene = NULL;
+    if (result) return result;
+    view->has_result = true;
+    return OCC_SUCCESS;
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef OCC_VIEW_DATA_H
+#define OCC_VIEW_DATA_H
+
+#include "frame.h"
+
+#define OCC_MOST_THREADS 1024u
+
+struct occ_view {
+    occ_hooks hooks;
+    occ_frame frame;
+    occ_tester *backend;
+    occ_array mask; // of uint32_t: the latest result
+    bool has_result;
+};
+
+// occ_view_create() with what only opencl.h can name: `cl_desc` is an occ_cl_desc or NULL.
+occ_result occ_view_make(const occ_view_desc *desc, const void *cl_desc, occ_view **view);
+
+#endif
