@@ -28,6 +28,26 @@ static bool same_root(const occ_root *a, const occ_root *b)
            a->origin[2] == b->origin[2];
 }
 
+// The bounds of every item of a table, made once for the root, the keys and the nodes.
+typedef struct bounds {
+    float min[3], max[3];
+} bounds;
+
+static void read_bounds(const void *table, uint32_t row, float min[3], float max[3])
+{
+    const bounds *b = (const bounds *)table + row;
+    memcpy(min, b->min, sizeof b->min);
+    memcpy(max, b->max, sizeof b->max);
+}
+
+// `table` has room for `rows` elements; which of them are read is up to the tree.
+static occ_tree_items cache_bounds(const occ_tree_items *items, uint32_t rows, bounds *table)
+{
+    for (uint32_t row = 0; row < rows; row++)
+        items->bounds(items->table, row, table[row].min, table[row].max);
+    return (occ_tree_items){table, read_bounds};
+}
+
 // The rows of the objects that are there, in the order of their slots.
 static void list_rows(const occ_scene *scene, uint32_t *rows)
 {
@@ -50,20 +70,27 @@ static void reorder_tables(occ_scene *scene, const uint32_t *rows, uint32_t coun
     scene->slot_of.count = count;
 }
 
+static occ_result sort_objects(occ_scene *scene, uint32_t *rows, uint32_t count, bounds *table)
+{
+    occ_tree_items items = occ_scene_object_items(scene);
+    items = cache_bounds(&items, scene->boxes.count, table);
+    list_rows(scene, rows);
+    occ_root root = occ_octree_root(&items, rows, count);
+    return occ_octree_build(&scene->hooks, &scene->object_tree, &items, &root, rows, count);
+}
+
 static occ_result rebuild_objects(occ_scene *scene)
 {
     uint32_t count = scene->objects.taken;
     size_t bytes = (size_t)count * sizeof(uint32_t);
+    size_t table_bytes = (size_t)scene->boxes.count * sizeof(bounds);
     size_t words = count / (OCC_CHANGE_ROWS * 32u) + 1u;
-    occ_tree_items items = occ_scene_object_items(scene);
     uint32_t *rows = occ_alloc(&scene->hooks, bytes), *scratch = occ_alloc(&scene->hooks, bytes);
-    occ_result result = count && (!rows || !scratch) ? OCC_ERROR_OUT_OF_MEMORY : OCC_SUCCESS;
+    bounds *table = occ_alloc(&scene->hooks, table_bytes);
+    occ_result result = OCC_SUCCESS;
+    if (count && (!rows || !scratch || !table)) result = OCC_ERROR_OUT_OF_MEMORY;
     if (!result) result = occ_array_reserve(&scene->hooks, &scene->changed, words);
-    if (!result) {
-        list_rows(scene, rows);
-        occ_root root = occ_octree_root(&items, rows, count);
-        result = occ_octree_build(&scene->hooks, &scene->object_tree, &items, &root, rows, count);
-    }
+    if (!result) result = sort_objects(scene, rows, count, table);
     if (!result) {
         reorder_tables(scene, rows, count, scratch);
         scene->changed.count = (uint32_t)words;
@@ -72,24 +99,38 @@ static occ_result rebuild_objects(occ_scene *scene)
     }
     occ_free(&scene->hooks, rows, bytes);
     occ_free(&scene->hooks, scratch, bytes);
+    occ_free(&scene->hooks, table, table_bytes);
     return result;
+}
+
+// The cheap path, for moves that left every object in its cell. False: the cells have changed too.
+static occ_result refit_objects(occ_scene *scene, bool *fits)
+{
+    size_t bytes = (size_t)scene->boxes.count * sizeof(bounds);
+    bounds *table = occ_alloc(&scene->hooks, bytes);
+    if (!table) return OCC_ERROR_OUT_OF_MEMORY;
+    occ_tree_items items = occ_scene_object_items(scene);
+    items = cache_bounds(&items, scene->boxes.count, table);
+    occ_root root = occ_octree_root(&items, NULL, scene->boxes.count);
+    *fits = same_root(&root, &scene->object_tree.root);
+    if (*fits) occ_octree_refit(&scene->object_tree, &items, NULL);
+    occ_free(&scene->hooks, table, bytes);
+    return OCC_SUCCESS;
 }
 
 static occ_result commit_objects(occ_scene *scene)
 {
+    bool fits = false;
     if (!scene->objects_reordered && !scene->objects_moved) {
-        if (scene->changed.count)
+        if (scene->changed.count) {
             memset(scene->changed.data, 0, (size_t)scene->changed.count * sizeof(uint32_t));
+        }
         scene->all_changed = false;
         return OCC_SUCCESS;
     }
     if (!scene->objects_reordered) {
-        occ_tree_items items = occ_scene_object_items(scene);
-        occ_root root = occ_octree_root(&items, NULL, scene->boxes.count);
-        if (same_root(&root, &scene->object_tree.root)) {
-            occ_octree_refit(&scene->object_tree, &items, NULL);
-            return OCC_SUCCESS;
-        }
+        occ_result result = refit_objects(scene, &fits);
+        if (result || fits) return result;
         scene->objects_reordered = true;
     }
     return rebuild_objects(scene);
@@ -135,41 +176,51 @@ static uint32_t list_occluders(const occ_scene *scene, uint32_t *slots)
     return count;
 }
 
-static occ_result rebuild_occluders(occ_scene *scene)
+static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *items)
 {
     uint32_t count = scene->occluders.taken;
-    occ_tree_items items = occ_scene_occluder_items(scene);
     occ_result result = occ_array_reserve(&scene->hooks, &scene->occluder_order, count);
     if (result) return result;
     uint32_t *order = scene->occluder_order.data;
     scene->occluder_order.count = list_occluders(scene, order);
-    occ_root root = occ_octree_root(&items, order, count);
-    result = occ_octree_build(&scene->hooks, &scene->occluder_tree, &items, &root, order, count);
+    occ_root root = occ_octree_root(items, order, count);
+    result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, &root, order, count);
     if (!result) {
         uint32_t nodes = scene->occluder_tree.nodes.count;
         result = occ_array_reserve(&scene->hooks, &scene->reach, nodes);
         if (!result) scene->reach.count = nodes;
     }
-    if (result) return result;
-    refit_reach(scene);
-    occ_slots_recycle(&scene->occluders);
-    return OCC_SUCCESS;
+    if (!result) occ_slots_recycle(&scene->occluders);
+    return result;
 }
 
-static occ_result commit_occluders(occ_scene *scene)
+static occ_result refit_occluders(occ_scene *scene, const occ_tree_items *items)
 {
-    if (!scene->occluders_reordered && scene->occluders_moved) {
-        occ_tree_items items = occ_scene_occluder_items(scene);
-        const uint32_t *order = scene->occluder_order.data;
-        occ_root root = occ_octree_root(&items, order, scene->occluder_order.count);
+    const uint32_t *order = scene->occluder_order.data;
+    if (!scene->occluders_reordered) {
+        occ_root root = occ_octree_root(items, order, scene->occluder_order.count);
         if (same_root(&root, &scene->occluder_tree.root)) {
-            occ_octree_refit(&scene->occluder_tree, &items, order);
-            refit_reach(scene);
+            occ_octree_refit(&scene->occluder_tree, items, order);
             return OCC_SUCCESS;
         }
         scene->occluders_reordered = true;
     }
-    return scene->occluders_reordered ? rebuild_occluders(scene) : OCC_SUCCESS;
+    return rebuild_occluders(scene, items);
+}
+
+static occ_result commit_occluders(occ_scene *scene)
+{
+    if (!scene->occluders_reordered && !scene->occluders_moved) return OCC_SUCCESS;
+    uint32_t slots = scene->occluders.count;
+    size_t bytes = (size_t)slots * sizeof(bounds);
+    bounds *table = occ_alloc(&scene->hooks, bytes);
+    if (!table) return OCC_ERROR_OUT_OF_MEMORY;
+    occ_tree_items items = occ_scene_occluder_items(scene);
+    items = cache_bounds(&items, slots, table);
+    occ_result result = refit_occluders(scene, &items);
+    if (!result) refit_reach(scene);
+    occ_free(&scene->hooks, table, bytes);
+    return result;
 }
 
 occ_result occ_scene_commit(occ_scene *scene)
