@@ -185,19 +185,19 @@ static void destroy(occ_tester *base)
 
 static const occ_backend_ops opencl_ops = {"opencl", upload, test, read_verdicts, destroy};
 
-occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **made)
+occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **backend)
 {
     static const occ_cl_desc defaults;
-    opencl_backend *backend = occ_alloc(hooks, sizeof *backend);
-    *made = NULL;
-    if (!backend) return OCC_ERROR_OUT_OF_MEMORY;
-    *backend = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
-    occ_result result = occ_cl_device_open(&backend->device, hooks, desc ? desc : &defaults);
+    opencl_backend *made = occ_alloc(hooks, sizeof *made);
+    *backend = NULL;
+    if (!made) return OCC_ERROR_OUT_OF_MEMORY;
+    *made = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
+    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults);
     if (result) {
-        occ_free(hooks, backend, sizeof *backend);
+        occ_free(hooks, made, sizeof *made);
         return result;
     }
-    *made = &backend->base;
+    *backend = &made->base;
     return OCC_SUCCESS;
 }
 
