@@ -5,7 +5,6 @@
 
 #include "cl_device.h"
 #include "log.h"
-#include "view_data.h"
 
 #define COLUMN_BYTES(boxes) ((size_t)(boxes)->stride * sizeof(float))
 
@@ -201,19 +200,7 @@ occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tes
     return OCC_SUCCESS;
 }
 
-occ_result occ_cl_view_create(const occ_view_desc *view_desc, const occ_cl_desc *desc,
-                              occ_view **view)
+cl_device_id occ_backend_opencl_device(const occ_tester *backend)
 {
-    if (!view) return OCC_ERROR_INVALID_ARGUMENT;
-    *view = NULL;
-    occ_view_desc made = {.backend = OCC_BACKEND_OPENCL};
-    if (view_desc) made = *view_desc;
-    made.backend = OCC_BACKEND_OPENCL;
-    return occ_view_make(&made, desc, view);
-}
-
-cl_device_id occ_cl_view_device(const occ_view *view)
-{
-    if (!view || view->backend->ops != &opencl_ops) return NULL;
-    return ((const opencl_backend *)view->backend)->device.id;
+    return backend->ops == &opencl_ops ? ((const opencl_backend *)backend)->device.id : NULL;
 }
