@@ -4,6 +4,8 @@
 // is how likely it is to be seen, so the sum is the cost of drawing what is seen.
 #include "cluster.h"
 
+#include "progress.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -150,6 +152,7 @@ static bool split(splitter *s)
     while (depth) {
         range group = stack[--depth];
         uint32_t at;
+        progress_step(group.first);
         if (group.first == group.end) continue;
         if (!find_cut(s, group, &at)) {
             emit(s, group);
@@ -220,7 +223,9 @@ bool clusters_build(const model *m, const sheet_list *sheets, uint32_t most, clu
     if (done) {
         out->first[0] = 0;
         list_units(&s, sheets);
+        progress_begin("splitting into objects, by triangle", s.unit_count);
         done = split(&s);
+        progress_end();
     }
     free(s.units);
     free(s.right_cost);

@@ -83,9 +83,8 @@ static uint32_t weld(import *in, const float p[3])
     model *out = in->out;
     size_t slot = hash_position(p) & in->slot_mask;
     while (in->slots[slot] != UINT32_MAX) {
-        if (memcmp(out->positions[in->slots[slot]], p, 3 * sizeof(float)) == 0) {
-            return in->slots[slot];
-        }
+        const float *q = out->positions[in->slots[slot]];
+        if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) return in->slots[slot];
         slot = (slot + 1) & in->slot_mask;
     }
     in->slots[slot] = out->vertex_count;
@@ -172,15 +171,25 @@ static bool take_face(import *in, const struct aiMesh *mesh, const transform *t,
     return true;
 }
 
+static bool take_mesh(import *in, unsigned number, const transform *t)
+{
+    const struct aiMesh *mesh = number < in->scene->mNumMeshes ? in->scene->mMeshes[number] : NULL;
+    if (!mesh || (mesh->mNumFaces && (!mesh->mFaces || !mesh->mVertices))) {
+        fprintf(stderr, "occlude-bench: %s: mesh %u of %u has no vertices\n", in->path, number,
+                in->scene->mNumMeshes);
+        return false;
+    }
+    bool see_through = is_see_through(in, mesh);
+    for (unsigned f = 0; f < mesh->mNumFaces; f++)
+        if (!take_face(in, mesh, t, f, see_through)) return false;
+    return true;
+}
+
 static bool take_node(import *in, const struct aiNode *node, const transform *parent)
 {
     transform t = compose(parent, &node->mTransformation);
-    for (unsigned i = 0; i < node->mNumMeshes; i++) {
-        const struct aiMesh *mesh = in->scene->mMeshes[node->mMeshes[i]];
-        bool see_through = is_see_through(in, mesh);
-        for (unsigned f = 0; f < mesh->mNumFaces; f++)
-            if (!take_face(in, mesh, &t, f, see_through)) return false;
-    }
+    for (unsigned i = 0; i < node->mNumMeshes; i++)
+        if (!take_mesh(in, node->mMeshes[i], &t)) return false;
     for (unsigned i = 0; i < node->mNumChildren; i++)
         if (!take_node(in, node->mChildren[i], &t)) return false;
     return true;
@@ -190,7 +199,8 @@ static size_t count_faces(const struct aiScene *scene, const struct aiNode *node
 {
     size_t count = 0;
     for (unsigned i = 0; i < node->mNumMeshes; i++)
-        count += scene->mMeshes[node->mMeshes[i]]->mNumFaces;
+        if (node->mMeshes[i] < scene->mNumMeshes)
+            count += scene->mMeshes[node->mMeshes[i]]->mNumFaces;
     for (unsigned i = 0; i < node->mNumChildren; i++)
         count += count_faces(scene, node->mChildren[i]);
     return count;
@@ -209,7 +219,7 @@ static bool reserve(import *in, size_t faces)
     size_t room = faces ? faces : 1;
     in->slot_mask = slots - 1;
     in->slots = malloc(slots * sizeof *in->slots);
-    in->out->positions = malloc(3 * room * sizeof *in->out->positions);
+    in->out->positions = calloc(3 * room, sizeof *in->out->positions);
     in->out->corners = malloc(room * sizeof *in->out->corners);
     in->out->see_through = malloc(room * sizeof *in->out->see_through);
     if (!in->slots || !in->out->positions || !in->out->corners || !in->out->see_through) {
@@ -258,6 +268,14 @@ static void set_upright(import *in)
     measure(m);
 }
 
+static bool has_extent(const import *in)
+{
+    for (int k = 0; k < 3; k++)
+        if (in->out->min[k] < in->out->max[k]) return true;
+    fprintf(stderr, "occlude-bench: %s: all of it is one point\n", in->path);
+    return false;
+}
+
 static bool take_scene(import *in)
 {
     static const transform identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -268,11 +286,10 @@ static bool take_scene(import *in)
         fprintf(stderr, "occlude-bench: %s: no triangles in it\n", in->path);
         return false;
     }
-    if (done) {
-        measure(in->out);
-        set_upright(in);
-    }
-    return done;
+    if (!done) return false;
+    measure(in->out);
+    set_upright(in);
+    return has_extent(in);
 }
 
 bool model_read(const char *path, const model_options *options, model *out)
@@ -285,8 +302,7 @@ bool model_read(const char *path, const model_options *options, model *out)
         return false;
     }
     fclose(probe);
-    const struct aiScene *scene =
-        aiImportFile(path, aiProcess_Triangulate | aiProcess_ValidateDataStructure);
+    const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate);
     if (!scene) {
         fprintf(stderr, "occlude-bench: %s: %s\n", path, aiGetErrorString());
         return false;

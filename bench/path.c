@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "path.h"
 
+#include "progress.h"
 #include "route.h"
 #include "steady.h"
 #include "voxels.h"
@@ -224,13 +225,17 @@ static bool add_frames(const model *m, pose *poses, uint32_t frames, obs_scene *
     double corner = sqrt(1 + (1 + ASPECT * ASPECT) / (COTANGENT * COTANGENT));
     report->clearance = diagonal(m) + 1e-30;
     report->far_z = 0;
+    progress_begin("measuring clearance, by frame", frames);
     for (uint32_t i = 0; i < frames; i++) {
+        progress_step(i);
         round_eye(&poses[i]);
         report->clearance = clearance_at(m, poses[i].eye, report->clearance);
         report->far_z = fmax(report->far_z, farthest_corner(m, poses[i].eye));
     }
+    progress_end();
     report->far_z *= 1.01;
-    report->near_z = 0.5 * report->clearance / corner;
+    // Far from the origin an eye's own rounding may take it to a surface: near stays above 0.
+    report->near_z = fmax(0.5 * report->clearance / corner, 1e-7 * report->far_z);
     for (uint32_t i = 0; i < frames; i++) {
         obs_frame frame = obs_look(poses[i].eye, poses[i].direction, COTANGENT, ASPECT,
                                    report->near_z, report->far_z);

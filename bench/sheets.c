@@ -2,6 +2,7 @@
 #include "sheets.h"
 
 #include "parallelogram.h"
+#include "progress.h"
 
 #include <stdlib.h>
 
@@ -103,6 +104,7 @@ static bool list_candidates(const model *m, const side *sides, size_t count, she
         while (end < count && sides[end].low == sides[first].low &&
                sides[end].high == sides[first].high)
             end++;
+        progress_step(first);
         if (!sheets_of_edge(m, sides + first, end - first, list, &room)) return false;
     }
     return true;
@@ -132,7 +134,9 @@ bool sheets_find(const model *m, sheet_list *out)
     size_t count;
     *out = (sheet_list){0};
     side *sides = list_sides(m, &count);
+    progress_begin("finding sheets, by edge", count);
     bool done = sides && list_candidates(m, sides, count, out) && choose(m, out);
+    progress_end();
     free(sides);
     if (!done) sheets_free(out);
     return done;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "voxels.h"
 
+#include "progress.h"
 #include "steady.h"
 
 #include <math.h>
@@ -230,13 +231,16 @@ static void choose_cells(const model *m, double cells, voxel_grid *g)
 static bool fill(const model *m, voxel_grid *g)
 {
     cell_normal *normals = calloc(g->count, sizeof *normals);
-    uint8_t *meets = malloc(g->count);
+    uint8_t *meets = calloc(g->count, sizeof *meets);
     bool done = normals && meets;
+    progress_begin("mapping free space, by triangle", m->triangle_count);
     for (uint32_t t = 0; done && t < m->triangle_count; t++) {
+        progress_step(t);
         triangle_shape s = shape_of(m, t);
         add_triangle_cells(g, normals, &s);
         add_detail(g, &s);
     }
+    progress_end();
     for (int d = 0; done && d < VOXEL_DIRECTIONS; d++)
         sweep(g, normals, DIRECTION[d], meets);
     free(normals);
