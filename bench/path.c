@@ -20,8 +20,10 @@ typedef struct way {
     size_t count;
 } way;
 
+// The eye is a float, as it will be in the file: nothing is derived from a finer one.
 typedef struct pose {
-    double eye[3], direction[3];
+    float eye[3];
+    double direction[3];
 } pose;
 
 static double distance(const double a[3], const double b[3])
@@ -35,6 +37,12 @@ static double distance(const double a[3], const double b[3])
 static double dot3(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void take_eye(const pose *p, double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = (double)p->eye[k];
 }
 
 static double clamp(double value, double least, double most)
@@ -178,11 +186,13 @@ static void look_along(const double from[3], const double to[3], double yaw, dou
 static pose pose_on_way(const way *w, double length, double share)
 {
     pose p;
-    double ahead[3], behind[3], reach = 0.03 * length;
+    double eye[3], ahead[3], behind[3], reach = 0.03 * length;
     double along = length * (0.02 + 0.96 * share);
-    point_along(w, along, p.eye);
+    point_along(w, along, eye);
     point_along(w, fmin(along + reach, length), ahead);
     point_along(w, fmax(along - reach, 0), behind);
+    for (int k = 0; k < 3; k++)
+        p.eye[k] = (float)eye[k];
     look_along(behind, ahead, 0.6 * steady_sin(7 * 2 * PI * share), p.direction);
     return p;
 }
@@ -194,11 +204,11 @@ static pose pose_on_orbit(const model *m, double share)
     double angle = 2 * PI * share, radius = 0.9 * diagonal(m) + 1e-30, middle[3];
     for (int k = 0; k < 3; k++)
         middle[k] = 0.5 * (double)m->min[k] + 0.5 * (double)m->max[k];
-    p.eye[0] = middle[0] + radius * steady_cos(angle);
-    p.eye[1] = 0.25 * (double)m->min[1] + 0.75 * (double)m->max[1];
-    p.eye[2] = middle[2] + radius * steady_sin(angle);
+    p.eye[0] = (float)(middle[0] + radius * steady_cos(angle));
+    p.eye[1] = 0.25f * m->min[1] + 0.75f * m->max[1];
+    p.eye[2] = (float)(middle[2] + radius * steady_sin(angle));
     for (int k = 0; k < 3; k++)
-        p.direction[k] = middle[k] - p.eye[k];
+        p.direction[k] = middle[k] - (double)p.eye[k];
     return p;
 }
 
@@ -212,14 +222,7 @@ static double farthest_corner(const model *m, const double eye[3])
     return sqrt(sum);
 }
 
-// The eye is rounded to float before anything is derived from it.
-static void round_eye(pose *p)
-{
-    for (int k = 0; k < 3; k++)
-        p->eye[k] = (double)(float)p->eye[k];
-}
-
-static bool add_frames(const model *m, pose *poses, uint32_t frames, obs_scene *scene,
+static bool add_frames(const model *m, const pose *poses, uint32_t frames, obs_scene *scene,
                        path_report *report)
 {
     double corner = sqrt(1 + (1 + ASPECT * ASPECT) / (COTANGENT * COTANGENT));
@@ -228,17 +231,20 @@ static bool add_frames(const model *m, pose *poses, uint32_t frames, obs_scene *
     progress_begin("measuring clearance, by frame", frames);
     for (uint32_t i = 0; i < frames; i++) {
         progress_step(i);
-        round_eye(&poses[i]);
-        report->clearance = clearance_at(m, poses[i].eye, report->clearance);
-        report->far_z = fmax(report->far_z, farthest_corner(m, poses[i].eye));
+        double eye[3];
+        take_eye(&poses[i], eye);
+        report->clearance = clearance_at(m, eye, report->clearance);
+        report->far_z = fmax(report->far_z, farthest_corner(m, eye));
     }
     progress_end();
     report->far_z *= 1.01;
     // Far from the origin an eye's own rounding may take it to a surface: near stays above 0.
     report->near_z = fmax(0.5 * report->clearance / corner, 1e-7 * report->far_z);
     for (uint32_t i = 0; i < frames; i++) {
-        obs_frame frame = obs_look(poses[i].eye, poses[i].direction, COTANGENT, ASPECT,
-                                   report->near_z, report->far_z);
+        double eye[3];
+        take_eye(&poses[i], eye);
+        obs_frame frame =
+            obs_look(eye, poses[i].direction, COTANGENT, ASPECT, report->near_z, report->far_z);
         if (obs_add_frame(scene, &frame) == UINT32_MAX) return false;
     }
     return true;

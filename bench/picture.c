@@ -47,8 +47,8 @@ static bool parse_size(picture_arguments *arguments)
     char *x = strchr(text, 'x');
     if (!x || strlen(arguments->size_text) >= sizeof text) return false;
     *x = '\0';
-    return options_number(text, 800, 8000, &arguments->width) &&
-           options_number(x + 1, 300, 8000, &arguments->height);
+    return options_number(text, 800, 4096, &arguments->width) &&
+           options_number(x + 1, 300, 4096, &arguments->height);
 }
 
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
@@ -71,7 +71,7 @@ static int parse_picture(int argc, char **argv, picture_arguments *arguments)
         !options_number(arguments->frame_text, 0, UINT32_MAX, &arguments->frame))
         return options_complain(argv[0], "expected a number from 0 after --frame");
     if (!parse_size(arguments))
-        return options_complain(argv[0], "expected WxH after --size, from 800x300 to 8000x8000");
+        return options_complain(argv[0], "expected WxH after --size, from 800x300 to 4096x4096");
     return 0;
 }
 

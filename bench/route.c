@@ -226,7 +226,7 @@ static bool trace(const search *s, size_t end, route *out)
 {
     for (size_t c = end; c != SIZE_MAX; c = s->parent[c])
         out->count++;
-    out->cells = malloc(out->count * sizeof *out->cells);
+    out->cells = calloc(out->count, sizeof *out->cells);
     if (!out->cells) return false;
     size_t place = out->count;
     for (size_t c = end; c != SIZE_MAX; c = s->parent[c])
