@@ -48,7 +48,7 @@ static bool parse_size(picture_arguments *arguments)
     if (!x || strlen(arguments->size_text) >= sizeof text) return false;
     *x = '\0';
     return options_number(text, 800, 4096, &arguments->width) &&
-           options_number(x + 1, 300, 4096, &arguments->height);
+           options_number(x + 1, 400, 4096, &arguments->height);
 }
 
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
@@ -71,7 +71,7 @@ static int parse_picture(int argc, char **argv, picture_arguments *arguments)
         !options_number(arguments->frame_text, 0, UINT32_MAX, &arguments->frame))
         return options_complain(argv[0], "expected a number from 0 after --frame");
     if (!parse_size(arguments))
-        return options_complain(argv[0], "expected WxH after --size, from 800x300 to 4096x4096");
+        return options_complain(argv[0], "expected WxH after --size, from 800x400 to 4096x4096");
     return 0;
 }
 
@@ -94,6 +94,17 @@ static const char *grouped(uint64_t number, char out[32])
     return out;
 }
 
+// Distances are thought for a picture 1600 pixels wide and grow with it.
+static int scaled(const canvas *c, double pixels)
+{
+    return (int)(pixels * c->width / 1600);
+}
+
+static int dot_size(const canvas *c)
+{
+    return scaled(c, 2) > 0 ? scaled(c, 2) : 1;
+}
+
 static void draw_title(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
 {
     char text[240], hidden[32], inside[32];
@@ -103,19 +114,20 @@ static void draw_title(canvas *c, const picture_arguments *arguments, const pict
              "%.60s, frame %u of %u: %s of %s objects in the frustum are hidden (%.1f %%)",
              base_name(arguments->scene), (unsigned)arguments->frame, facts->scene->frame_count,
              grouped(facts->counts[PICTURE_HIDDEN], hidden), grouped(in_frustum, inside), share);
-    canvas_text(c, 16 * CANVAS_FINE, 12 * CANVAS_FINE, 2 * CANVAS_FINE, picture_ink, text);
+    canvas_text(c, scaled(c, 16), scaled(c, 12), dot_size(c), picture_ink, text);
 }
 
+// Returns where the next one goes.
 static int draw_key(canvas *c, int x, int y, canvas_color color, const char *label)
 {
-    canvas_rect swatch = {x, y - 2 * CANVAS_FINE, 18 * CANVAS_FINE, 18 * CANVAS_FINE};
+    canvas_rect swatch = {x, y - scaled(c, 2), scaled(c, 18), scaled(c, 18)};
     canvas_fill(c, swatch, color);
     canvas_frame(c, swatch, CANVAS_FINE, picture_ink);
-    canvas_text(c, x + 26 * CANVAS_FINE, y, 2 * CANVAS_FINE, picture_ink, label);
-    return x + 56 * CANVAS_FINE + canvas_text_width(label, 2 * CANVAS_FINE);
+    canvas_text(c, x + scaled(c, 26), y, dot_size(c), picture_ink, label);
+    return x + scaled(c, 56) + canvas_text_width(label, dot_size(c));
 }
 
-static void draw_legend(canvas *c, const picture_facts *facts)
+static void draw_legend(canvas *c, int y, const picture_facts *facts)
 {
     static const struct {
         picture_verdict verdict;
@@ -124,7 +136,7 @@ static void draw_legend(canvas *c, const picture_facts *facts)
                  {PICTURE_HIDDEN, "hidden, not drawn"},
                  {PICTURE_OUTSIDE, "outside the frustum"}};
     char label[128], number[32], all[32];
-    int x = 16 * CANVAS_FINE, y = c->height - 26 * CANVAS_FINE;
+    int x = scaled(c, 16);
     for (int i = 0; i < 3; i++) {
         snprintf(label, sizeof label, "%s %s", grouped(facts->counts[keys[i].verdict], number),
                  keys[i].text);
@@ -140,7 +152,7 @@ static void draw_legend(canvas *c, const picture_facts *facts)
 static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *map,
                          canvas_rect *camera)
 {
-    int margin = 16 * CANVAS_FINE, top = 68 * CANVAS_FINE, bottom = 46 * CANVAS_FINE;
+    int margin = scaled(c, 16), top = scaled(c, 68), bottom = scaled(c, 46);
     float aspect = frame->proj[0] != 0.0f ? frame->proj[5] / frame->proj[0] : 1.0f;
     if (!(aspect > 0.2f && aspect < 5.0f)) aspect = 16.0f / 9.0f;
     int height = c->height - top - bottom;
@@ -162,13 +174,13 @@ static bool draw_all(canvas *c, const picture_arguments *arguments, const pictur
         fputs("occlude-bench: not enough memory\n", stderr);
         return false;
     }
-    int y = map.y - 22 * CANVAS_FINE;
-    canvas_text(c, map.x, y, 2 * CANVAS_FINE, picture_ink, caption);
-    canvas_text(c, camera.x, y, 2 * CANVAS_FINE, picture_ink, camera_caption);
+    int y = map.y - scaled(c, 22);
+    canvas_text(c, map.x, y, dot_size(c), picture_ink, caption);
+    canvas_text(c, camera.x, y, dot_size(c), picture_ink, camera_caption);
     canvas_frame(c, map, CANVAS_FINE, picture_ink);
     canvas_frame(c, camera, CANVAS_FINE, picture_ink);
     draw_title(c, arguments, facts);
-    draw_legend(c, facts);
+    draw_legend(c, map.y + map.height + scaled(c, 20), facts);
     return true;
 }
 

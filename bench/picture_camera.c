@@ -78,14 +78,16 @@ static void paint(layers *l, const layer *from, int x, int y)
     if (is_edge(r, x, y)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
 }
 
-// An occluder lies within its owner's box: there it shows through, elsewhere only in front.
+// An occluder lies within its owner's box: there it shows through, elsewhere only in front of a
+// box, or in its face (1 - z falls with the distance, so the slack is a thousandth of it).
 static bool occluder_shows(const layers *l, size_t i)
 {
     uint32_t face = l->occluders.raster.face[i], object = l->visible.raster.face[i];
     if (face == RASTER_EMPTY) return false;
     if (object == RASTER_EMPTY) return true;
     uint32_t owner = l->facts->scene->occluders[face / 6].owner;
-    return owner == object / 6 || l->occluders.raster.depth[i] <= l->visible.raster.depth[i];
+    float front = l->visible.raster.depth[i];
+    return owner == object / 6 || l->occluders.raster.depth[i] <= front + 1e-3f * (1 - front);
 }
 
 static void compose(layers *l)

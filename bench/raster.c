@@ -82,7 +82,8 @@ static void draw_span(raster *r, int y, double left, double right, const double 
     size_t row = (size_t)y * (size_t)r->width;
     for (int x = from; x <= to; x++) {
         double z = plane[0] * (x + 0.5) + plane[1] * (y + 0.5) + plane[2];
-        if (z > 1 || z >= (double)r->depth[row + (size_t)x]) continue;
+        // Of faces in one plane the first stays: rounding would mix them in stripes.
+        if (z > 1 || z + 1e-5 * (1 - z) >= (double)r->depth[row + (size_t)x]) continue;
         r->depth[row + (size_t)x] = (float)z;
         r->face[row + (size_t)x] = face;
     }
