@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "canvas.h"
 
-#include "canvas_stb.h"
+#include "canvas_png.h"
 #include "outfile.h"
 
 #include <math.h>

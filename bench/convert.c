@@ -33,7 +33,7 @@ static const char convert_usage[] =
     "their bounds, occluders that lie exactly in its surface, and a camera path through its free\n"
     "space. What is guaranteed is told in docs/convert.md.\n"
     "\n"
-    "  --triangles N        at most so many triangles in an object (default 64, at least 2)\n"
+    "  --triangles N        at most so many triangles in an object (default 32, at least 2)\n"
     "  --frames N           frames of the camera path (default 60)\n"
     "  --eye H              height of the eye above floors, in the model's units (default: 3 % of\n"
     "                       its width, or 10 % of its height if that is less)\n"
@@ -78,7 +78,7 @@ static const char *complete_arguments(convert_arguments *arguments)
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_convert(int argc, char **argv, convert_arguments *arguments)
 {
-    *arguments = (convert_arguments){.most = 64, .frames = 60};
+    *arguments = (convert_arguments){.most = 32, .frames = 60};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--triangles", OPTIONS_COUNT, &arguments->most},
                                      {"--frames", OPTIONS_COUNT, &arguments->frames},

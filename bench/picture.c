@@ -30,7 +30,7 @@ static const char picture_usage[] =
     "  --out P.png   where to\n"
     "  --vis R.vis   take the verdicts from this file (of occlude-bench cull) instead of deciding\n"
     "                with method single\n"
-    "  --size WxH    of the picture (default 1600x700)\n"
+    "  --size WxH    of the picture (default 1600x672)\n"
     "\n"
     "Boxes are drawn: objects are what lies inside them. From above nothing is buried under\n"
     "anything, whatever its height; what is very large is drawn pale.\n"
@@ -41,7 +41,7 @@ static bool parse_size(picture_arguments *arguments)
 {
     char text[32];
     arguments->width = 1600;
-    arguments->height = 700;
+    arguments->height = 672;
     if (!arguments->size_text) return true;
     snprintf(text, sizeof text, "%s", arguments->size_text);
     char *x = strchr(text, 'x');
@@ -123,7 +123,7 @@ static void draw_legend(canvas *c, const picture_facts *facts)
     } keys[3] = {{PICTURE_VISIBLE, "visible"},
                  {PICTURE_HIDDEN, "hidden, not drawn"},
                  {PICTURE_OUTSIDE, "outside the frustum"}};
-    char label[96], number[32];
+    char label[128], number[32], all[32];
     int x = 16 * CANVAS_FINE, y = c->height - 26 * CANVAS_FINE;
     for (int i = 0; i < 3; i++) {
         snprintf(label, sizeof label, "%s %s", grouped(facts->counts[keys[i].verdict], number),
@@ -132,7 +132,7 @@ static void draw_legend(canvas *c, const picture_facts *facts)
     }
     if (!facts->used_known) return;
     snprintf(label, sizeof label, "%s of %s occluders used", grouped(facts->used_count, number),
-             grouped(facts->scene->occluder_count, label + 48));
+             grouped(facts->scene->occluder_count, all));
     draw_key(c, x, y, picture_occluder_color, label);
 }
 
@@ -140,7 +140,7 @@ static void draw_legend(canvas *c, const picture_facts *facts)
 static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *map,
                          canvas_rect *camera)
 {
-    int margin = 16 * CANVAS_FINE, top = 62 * CANVAS_FINE, bottom = 44 * CANVAS_FINE;
+    int margin = 16 * CANVAS_FINE, top = 68 * CANVAS_FINE, bottom = 46 * CANVAS_FINE;
     float aspect = frame->proj[0] != 0.0f ? frame->proj[5] / frame->proj[0] : 1.0f;
     if (!(aspect > 0.2f && aspect < 5.0f)) aspect = 16.0f / 9.0f;
     int height = c->height - top - bottom;
@@ -153,7 +153,7 @@ static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *m
 static bool draw_all(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
 {
     static const char camera_caption[] =
-        "from the camera: hidden objects shine through what hides them";
+        "from the camera: hidden objects, striped, shine through what hides them";
     canvas_rect map, camera;
     char caption[96];
     place_panels(c, facts->frame, &map, &camera);
@@ -162,9 +162,9 @@ static bool draw_all(canvas *c, const picture_arguments *arguments, const pictur
         fputs("occlude-bench: not enough memory\n", stderr);
         return false;
     }
-    int y = map.y - 20 * CANVAS_FINE;
-    canvas_text(c, map.x, y, 3, picture_ink, caption);
-    canvas_text(c, camera.x, y, 3, picture_ink, camera_caption);
+    int y = map.y - 22 * CANVAS_FINE;
+    canvas_text(c, map.x, y, 2 * CANVAS_FINE, picture_ink, caption);
+    canvas_text(c, camera.x, y, 2 * CANVAS_FINE, picture_ink, camera_caption);
     canvas_frame(c, map, CANVAS_FINE, picture_ink);
     canvas_frame(c, camera, CANVAS_FINE, picture_ink);
     draw_title(c, arguments, facts);

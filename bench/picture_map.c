@@ -233,7 +233,13 @@ static bool draw_objects(const map *m)
     return true;
 }
 
-// Solid ones are filled; sheets, mostly seen from their edge, are lines.
+// Whether a box stands: floors and ceilings would cover the map.
+static bool is_upright(const occ_box *box)
+{
+    return box_reach(box, 1) > 0.25 * fmin(box_reach(box, 0), box_reach(box, 2));
+}
+
+// What stands is what hides on a map: it is filled, and a sheet seen from its edge is a line.
 static void draw_occluders(const map *m)
 {
     for (size_t i = m->facts->used_count; i-- > 0;) {
@@ -243,13 +249,13 @@ static void draw_occluders(const map *m)
         int count = footprint(m, box, hull);
         double area = 4 * box_reach(box, 0) * box_reach(box, 2) * m->scale * m->scale;
         bool large = area > 0.05 * m->panel.width * m->panel.height;
-        bool upright = box_reach(box, 1) > 0;
+        bool upright = is_upright(box);
         canvas_polygon(m->c, (const double(*)[2])hull, count, picture_occluder_color,
                        large     ? 0.1f
                        : upright ? 0.8f
                                  : 0.2f);
         outline(m, (const double(*)[2])hull, count, upright ? 4 : 2, picture_occluder_color,
-                upright ? 1.0f : 0.4f);
+                upright ? 1.0f : 0.25f);
     }
 }
 
@@ -266,10 +272,11 @@ static bool invert(const double a[16], double out[16])
         for (int r = k + 1; r < 4; r++)
             if (fabs(w[r][k]) > fabs(w[pivot][k])) pivot = r;
         if (w[pivot][k] == 0) return false;
+        double head = w[pivot][k];
         for (int c = 0; c < 8; c++) {
-            double swap = w[k][c];
-            w[k][c] = w[pivot][c] / w[pivot][k];
-            if (pivot != k) w[pivot][c] = swap;
+            double kept = w[k][c];
+            w[k][c] = w[pivot][c] / head;
+            if (pivot != k) w[pivot][c] = kept;
         }
         for (int r = 0; r < 4; r++) {
             double factor = w[r][k];
@@ -326,9 +333,12 @@ bool picture_draw_map(canvas *c, canvas_rect panel, const picture_facts *facts, 
     draw_occluders(&m);
     draw_frustum(&m);
     c->clip = canvas_all(c);
+    int digits = whole < 10 ? 2 : whole < 100 ? 1 : 0;
     if (side < whole)
-        snprintf(caption, size, "from above: %.3g of %.3g units across", side, whole / 1.04);
+        snprintf(caption, size, "from above: %.*f of %.*f units across", digits, side, digits,
+                 whole / 1.04);
     else
-        snprintf(caption, size, "from above: the whole scene, %.3g units across", whole / 1.04);
+        snprintf(caption, size, "from above: the whole scene, %.*f units across", digits,
+                 whole / 1.04);
     return good;
 }

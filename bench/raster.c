@@ -107,7 +107,7 @@ static bool depth_plane(const screen_point *p, int count, double plane[3])
 
 static void draw_polygon(raster *r, const screen_point *p, int count, uint32_t face)
 {
-    double plane[3], low = INFINITY, high = -INFINITY;
+    double plane[3] = {0, 0, 0}, low = INFINITY, high = -INFINITY;
     if (!depth_plane(p, count, plane)) return;
     for (int i = 0; i < count; i++) {
         low = fmin(low, p[i][1]);
@@ -144,7 +144,7 @@ static void draw_face(raster *r, const raster_camera *camera, const double corne
         screen[i][1] = (1 - p.at[i][1] / p.at[i][3]) / 2 * r->height;
         screen[i][2] = p.at[i][2] / p.at[i][3];
     }
-    draw_polygon(r, screen, p.count, face);
+    draw_polygon(r, (const screen_point *)screen, p.count, face);
 }
 
 static double dot_cross(const double *a, const double *b, const double *c)
@@ -180,6 +180,7 @@ void raster_box(raster *r, const raster_camera *camera, const occ_box *box, uint
         const double *a = axis[face / 2], *u = axis[(face / 2 + 1) % 3],
                      *v = axis[(face / 2 + 2) % 3];
         double side = face & 1 ? 1 : -1, corner[4][3];
+        if (face % 2 == 0 && a[0] == 0 && a[1] == 0 && a[2] == 0) continue; // is the other side
         if (volume != 0 && side * along[face / 2] <= fabs(volume) * camera->eye[3]) continue;
         for (int i = 0; i < 4; i++)
             for (int k = 0; k < 3; k++)

@@ -10,6 +10,14 @@
 // A cell with the room around it to be a step of the way: its 26 neighbours are free.
 enum { MIN_ROOM = 2 };
 
+// Regions that are looked at more closely, largest first.
+enum { REGIONS = 16 };
+
+// Cells that hang together, in search.members.
+typedef struct region {
+    size_t first, count;
+} region;
+
 typedef struct heap_entry {
     float cost;
     size_t cell;
@@ -39,6 +47,16 @@ static size_t neighbour(const voxel_grid *g, size_t cell, int n)
 {
     ptrdiff_t row = g->size[0], layer = (ptrdiff_t)g->size[0] * g->size[2];
     return (size_t)((ptrdiff_t)cell + (n % 3 - 1) + (n / 3 % 3 - 1) * row + (n / 9 - 1) * layer);
+}
+
+static bool is_border(const voxel_grid *g, size_t cell)
+{
+    size_t row = cell / (size_t)g->size[0];
+    const size_t at[3] = {cell % (size_t)g->size[0], row / (size_t)g->size[2],
+                          row % (size_t)g->size[2]};
+    for (int k = 0; k < 3; k++)
+        if (at[k] == 0 || at[k] == (size_t)g->size[k] - 1) return true;
+    return false;
 }
 
 static float step_length(int n)
@@ -132,25 +150,76 @@ static size_t flood(const search *s, size_t first, bool *seen, size_t place)
     return end;
 }
 
-// Leaves the largest connected region in `members`.
-static bool choose_region(search *s)
+// The triangles met by spreading from a region through free cells, not farther than an eighth of
+// the grid. `reached` is marked with the region's number.
+static size_t detail_around(const search *s, const region *r, uint8_t mark, uint8_t *reached,
+                            size_t *queue)
 {
-    bool *seen = calloc(s->grid->count, sizeof *seen);
-    if (!seen) return false;
-    size_t place = 0, best_first = 0, best_count = 0;
+    const voxel_grid *g = s->grid;
+    int limit = (g->size[0] > g->size[2] ? g->size[0] : g->size[2]) / 8;
+    size_t end = 0, detail = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        queue[end++] = s->members[r->first + i];
+        reached[queue[i]] = mark;
+    }
+    for (size_t next = 0, ring = end; next < end && limit > 0; next++) {
+        if (next == ring) {
+            ring = end;
+            limit--;
+        }
+        if (g->solid[queue[next]] || is_border(g, queue[next])) continue;
+        for (int n = 0; n < 27; n++) {
+            size_t to = neighbour(g, queue[next], n);
+            if (reached[to] == mark) continue;
+            reached[to] = mark;
+            detail += g->detail[to];
+            queue[end++] = to;
+        }
+    }
+    return detail;
+}
+
+// Collects the connected regions, the cells of each one after another in `members`; keeps the
+// largest REGIONS of them in order of size. Returns how many.
+static size_t list_regions(const search *s, bool *seen, region *regions)
+{
+    size_t place = 0, count = 0;
     for (size_t i = 0; i < s->grid->count; i++) {
         if (!s->allowed[i] || seen[i]) continue;
-        size_t end = flood(s, i, seen, place);
-        if (end - place > best_count) {
-            best_first = place;
-            best_count = end - place;
-        }
-        place = end;
+        region r = {place, flood(s, i, seen, place) - place};
+        place += r.count;
+        size_t at = count < REGIONS ? count++ : count;
+        for (; at > 0 && regions[at - 1].count < r.count; at--)
+            if (at < REGIONS) regions[at] = regions[at - 1];
+        if (at < REGIONS) regions[at] = r;
     }
-    memmove(s->members, s->members + best_first, best_count * sizeof *s->members);
-    s->member_count = best_count;
+    return count;
+}
+
+// Leaves the cells of the region to walk in at the start of `members`.
+static bool choose_region(search *s)
+{
+    region regions[REGIONS];
+    bool *seen = calloc(s->grid->count, sizeof *seen);
+    uint8_t *reached = calloc(s->grid->count, sizeof *reached);
+    size_t *queue = malloc(s->grid->count * sizeof *queue);
+    size_t best = 0, most = 0, count = 0;
+    bool good = seen && reached && queue;
+    if (good) count = list_regions(s, seen, regions);
+    for (size_t i = 0; i < count && regions[i].count >= regions[0].count / 16; i++) {
+        size_t detail = detail_around(s, &regions[i], (uint8_t)(i + 1), reached, queue);
+        if (detail <= most) continue;
+        most = detail;
+        best = i;
+    }
+    if (count) {
+        s->member_count = regions[best].count;
+        memmove(s->members, s->members + regions[best].first, s->member_count * sizeof *s->members);
+    }
     free(seen);
-    return true;
+    free(reached);
+    free(queue);
+    return good;
 }
 
 static bool trace(const search *s, size_t end, route *out)

@@ -21,9 +21,10 @@ typedef struct route {
     bool *allowed; ///< For each cell of the grid: it obeys the rule and has room all around.
 } route;
 
-/// Finds a way about as long as any within the largest connected region that obeys a rule, keeping
-/// off walls and near the upper half of the heights allowed. Finding none is not a failure: the
-/// route is then empty. Returns false when memory runs out.
+/// Finds a way about as long as any within a connected region that obeys a rule, keeping off walls
+/// and near the upper half of the heights allowed. Of the larger regions, it is the one around
+/// which most triangles are. Finding none is not a failure: the route is then empty. Returns false
+/// when memory runs out.
 bool route_find(const voxel_grid *grid, const route_rule *rule, route *out);
 
 /// Frees what a route holds and zeroes it.

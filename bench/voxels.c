@@ -117,6 +117,15 @@ static void add_triangle_cells(voxel_grid *g, cell_normal *normals, const triang
             }
 }
 
+static void add_detail(voxel_grid *g, const triangle_shape *s)
+{
+    double middle[3];
+    for (int k = 0; k < 3; k++)
+        middle[k] = (s->corner[0][k] + s->corner[1][k] + s->corner[2][k]) / 3;
+    size_t index = voxels_at(g, middle);
+    if (index != SIZE_MAX && g->detail[index] < UINT16_MAX) g->detail[index]++;
+}
+
 static uint8_t seen_from(const cell_normal *n, const int direction[3])
 {
     float along = 0, length = 0;
@@ -226,6 +235,7 @@ static bool fill(const model *m, voxel_grid *g)
     for (uint32_t t = 0; done && t < m->triangle_count; t++) {
         triangle_shape s = shape_of(m, t);
         add_triangle_cells(g, normals, &s);
+        add_detail(g, &s);
     }
     for (int d = 0; done && d < VOXEL_DIRECTIONS; d++)
         sweep(g, normals, DIRECTION[d], meets);
@@ -239,11 +249,13 @@ bool voxels_build(const model *m, double cells, voxel_grid *out)
     *out = (voxel_grid){0};
     choose_cells(m, cells, out);
     out->solid = calloc(out->count, sizeof *out->solid);
+    out->detail = calloc(out->count, sizeof *out->detail);
     out->hits = calloc(out->count, sizeof *out->hits);
     out->facing = calloc(out->count, sizeof *out->facing);
     out->room = malloc(out->count * sizeof *out->room);
     out->height = malloc(out->count * sizeof *out->height);
-    bool done = out->solid && out->hits && out->facing && out->room && out->height && fill(m, out);
+    bool done = out->solid && out->detail && out->hits && out->facing && out->room && out->height &&
+                fill(m, out);
     if (done) {
         measure_height(out);
         measure_room(out);
@@ -276,6 +288,7 @@ void voxels_center(const voxel_grid *grid, size_t index, double out[3])
 void voxels_free(voxel_grid *grid)
 {
     free(grid->solid);
+    free(grid->detail);
     free(grid->hits);
     free(grid->facing);
     free(grid->room);

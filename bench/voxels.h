@@ -16,6 +16,7 @@ typedef struct voxel_grid {
     double origin[3]; ///< The outer corner of cell (0, 0, 0).
     double cell;      ///< Edge of a cell.
     bool *solid;      ///< A triangle touches the cell: no free cell is touched by one.
+    uint16_t *detail; ///< Triangles whose middle is in the cell, up to 65535.
     uint8_t *hits;    ///< For a free cell: directions along which surface is met.
     int8_t *facing;   ///< For a free cell: of these, fronts less backs of one-sided surface.
     uint8_t *room;    ///< Cells to the nearest solid one or the border, diagonals as 1, up to 255.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The part of canvas.h that encodes.
-#ifndef OCC_BENCH_CANVAS_STB_H
-#define OCC_BENCH_CANVAS_STB_H
+#ifndef OCC_BENCH_CANVAS_PNG_H
+#define OCC_BENCH_CANVAS_PNG_H
 
 #include "canvas.h"
 
