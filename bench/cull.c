@@ -115,13 +115,12 @@ static void base_name(const char *path, char *name, size_t size)
 
 static void print_memory(const obs_scene *scene, const measure_result *result)
 {
-    uint64_t bytes = result->scene_bytes + result->view_bytes;
     double objects = scene->object_count ? scene->object_count : 1;
     printf("build %.1f ms (%u objects, %u occluders, all octrees)\n", result->build_ms,
            scene->object_count, scene->occluder_count);
     printf("library memory %llu bytes (scene %llu, view %llu), %.1f bytes per object\n",
-           (unsigned long long)bytes, (unsigned long long)result->scene_bytes,
-           (unsigned long long)result->view_bytes, (double)bytes / objects);
+           (unsigned long long)result->held_bytes, (unsigned long long)result->scene_bytes,
+           (unsigned long long)result->view_bytes, (double)result->held_bytes / objects);
     if (result->device_bytes > 0)
         printf("device memory %llu bytes on %s\n", (unsigned long long)result->device_bytes,
                result->driver);

@@ -297,6 +297,7 @@ static bool run_all(measure_bench *bench)
     if (!succeeded(occ_scene_get_stats(bench->scene, &scene), "asking for the scene's size"))
         return false;
     bench->result->scene_bytes = scene.bytes;
+    bench->result->held_bytes = bench->heap.bytes;
     if (bench->result->frame_count == 0 || bench->is_thesis) return true;
     bench->result->view_bytes = bench->result->frames[0].stats.bytes;
     bench->result->device_bytes = bench->result->frames[0].stats.device_bytes;

@@ -38,7 +38,8 @@ typedef struct measure_result {
     measure_frame *frames;
     vis_result verdicts; ///< One row for each entry of `frames`.
     double build_ms;     ///< Adding and committing all objects and occluders.
-    uint64_t scene_bytes, view_bytes, device_bytes;
+    uint64_t scene_bytes, view_bytes, device_bytes; ///< As the library says.
+    uint64_t held_bytes;        ///< As the allocator hooks count: scene and view together.
     uint64_t timed_allocations; ///< Seen by the allocator hooks while frames were timed.
     char driver[256];           ///< The OpenCL device and its driver, or "none".
 } measure_result;

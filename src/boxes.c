@@ -10,8 +10,10 @@ static size_t bytes_of(const occ_boxes *boxes)
 
 occ_result occ_boxes_reserve(occ_hooks *hooks, occ_boxes *boxes, size_t capacity)
 {
-    if (capacity <= boxes->stride) return OCC_SUCCESS;
-    size_t stride = (capacity + OCC_BOX_LANES - 1) / OCC_BOX_LANES * OCC_BOX_LANES;
+    if (boxes->data && capacity <= boxes->stride - OCC_BOX_PADDING) return OCC_SUCCESS;
+    if (!capacity) return OCC_SUCCESS;
+    size_t stride = (capacity + OCC_BOX_PADDING + OCC_BOX_LANES - 1) / OCC_BOX_LANES;
+    stride *= OCC_BOX_LANES;
     if (stride > UINT32_MAX || stride > SIZE_MAX / (OCC_BOX_COLUMNS * sizeof(float))) {
         return OCC_ERROR_LIMIT;
     }

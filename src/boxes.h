@@ -13,11 +13,12 @@
 
 #define OCC_BOX_COLUMNS 12u
 #define OCC_BOX_LANES   16u
+#define OCC_BOX_PADDING (OCC_BOX_LANES - 1u) // rows that a vector load from the last row touches
 
 typedef struct occ_boxes {
     float *data;
     uint32_t count;
-    uint32_t stride; // a multiple of OCC_BOX_LANES; rows from `count` on hold finite numbers
+    uint32_t stride; // a multiple of OCC_BOX_LANES; the last OCC_BOX_PADDING rows are never used
 } occ_boxes;
 
 static inline float *occ_boxes_column(const occ_boxes *boxes, uint32_t column)

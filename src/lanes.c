@@ -15,74 +15,87 @@
 #define OCC_TEXT(a)      OCC_TEXT2(a)
 #define OCC_LANES_TABLE  OCC_PASTE(occ_lanes_, OCC_LANES_NAME)
 
-#define OBJECT_LANES OCC_BOX_LANES
+#define ALL_WIDE    ((1u << OCC_WIDTH) - 1u)
+#define NODE_GROUPS (OCC_NODE_LANES / OCC_NODE_WIDTH)
 
-// Lanes whose shadow holds the box's center by more than the bound: a box inside has that too, in
-// floats as well, since s - r rounds to no more than s. Most lanes end here, for a quarter of the
-// work.
-static inline uint32_t hold_center(const occ_shadow_block *block, const occ_relative_box *box)
+// Lanes, from `l` on, whose shadow holds the box's center by more than the bound: a box inside has
+// that too, in floats as well, since s - r rounds to no more than s. Most lanes end here, for a
+// quarter of the work.
+static inline uint32_t hold_center(const occ_shadow_block *block, uint32_t l,
+                                   const occ_relative_box *box)
 {
     const float *t = box->t;
-    uint32_t held = 0xffffu;
+    uint32_t held = ALL_WIDE;
     for (uint32_t p = 0; p < OCC_SHADOW_PLANES && held; p++) {
         const float(*plane)[OCC_SHADOW_LANES] = block->plane[p];
-        f16 s = OCC_PLANE_AT(load16(plane[0]), load16(plane[1]), load16(plane[2]), load16(plane[3]),
-                             t[0], t[1], t[2]);
-        held &= bits16(s > box->e);
+        fwide s = OCC_PLANE_AT(load_wide(plane[0] + l), load_wide(plane[1] + l),
+                               load_wide(plane[2] + l), load_wide(plane[3] + l), t[0], t[1], t[2]);
+        held &= bits_wide(s > box->e);
     }
     return held;
 }
 
-static inline uint32_t hold_box(const occ_shadow_block *block, const occ_relative_box *box,
-                                uint32_t held)
+static inline uint32_t hold_box(const occ_shadow_block *block, uint32_t l,
+                                const occ_relative_box *box, uint32_t held)
 {
     const float *t = box->t, *a = box->a;
     for (uint32_t p = 0; p < OCC_SHADOW_PLANES && held; p++) {
         const float(*plane)[OCC_SHADOW_LANES] = block->plane[p];
-        f16 x = load16(plane[0]), y = load16(plane[1]), z = load16(plane[2]);
-        f16 s = OCC_PLANE_AT(x, y, z, load16(plane[3]), t[0], t[1], t[2]);
-        f16 r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
+        fwide x = load_wide(plane[0] + l), y = load_wide(plane[1] + l);
+        fwide z = load_wide(plane[2] + l);
+        fwide s = OCC_PLANE_AT(x, y, z, load_wide(plane[3] + l), t[0], t[1], t[2]);
+        fwide r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
         r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
         r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
-        held &= bits16(OCC_IS_INSIDE(s, r, box->e));
+        held &= bits_wide(OCC_IS_INSIDE(s, r, box->e));
     }
     return held;
 }
 
 static bool any_hides(const occ_shadow_block *blocks, uint32_t count, const occ_relative_box *box)
 {
-    for (uint32_t b = 0; b < count; b++) {
-        uint32_t held = hold_center(&blocks[b], box);
-        if (held && hold_box(&blocks[b], box, held)) return true;
+    for (uint32_t i = 0; i < count * OCC_SHADOW_LANES; i += OCC_WIDTH) {
+        const occ_shadow_block *block = &blocks[i / OCC_SHADOW_LANES];
+        uint32_t l = i % OCC_SHADOW_LANES, held = hold_center(block, l, box);
+        if (held && hold_box(block, l, box, held)) return true;
     }
     return false;
 }
 
 typedef struct node_lanes {
-    f8 t[3]; // centers relative to the eye
-    f8 h[3]; // half sizes
-    f8 e;
+    struct {
+        fnode t[3]; // centers relative to the eye
+        fnode h[3]; // half sizes
+        fnode e;
+    } group[NODE_GROUPS];
 } node_lanes;
 
 // Lanes beyond the last sibling repeat it.
 static inline void load_nodes(node_lanes *lanes, const occ_siblings *siblings, const occ_eye *eye)
 {
-    const occ_node *node[OCC_NODE_LANES];
-    for (uint32_t l = 0; l < OCC_NODE_LANES; l++)
-        node[l] = &siblings->nodes[l < siblings->count ? l : siblings->count - 1];
-    for (uint32_t j = 0; j < 3; j++) {
-        f8 min = {node[0]->min[j], node[1]->min[j], node[2]->min[j], node[3]->min[j],
-                  node[4]->min[j], node[5]->min[j], node[6]->min[j], node[7]->min[j]};
-        f8 max = {node[0]->max[j], node[1]->max[j], node[2]->max[j], node[3]->max[j],
-                  node[4]->max[j], node[5]->max[j], node[6]->max[j], node[7]->max[j]};
-        min = OCC_RELATIVE(min, eye->high[j], eye->low[j]);
-        max = OCC_RELATIVE(max, eye->high[j], eye->low[j]);
-        lanes->t[j] = OCC_MIDDLE(min, max);
-        lanes->h[j] = OCC_HALF(min, max);
+    float min[3][OCC_NODE_LANES], max[3][OCC_NODE_LANES];
+    for (uint32_t l = 0; l < OCC_NODE_LANES; l++) {
+        const occ_node *node = &siblings->nodes[l < siblings->count ? l : siblings->count - 1];
+        for (uint32_t j = 0; j < 3; j++) {
+            min[j][l] = node->min[j];
+            max[j][l] = node->max[j];
+        }
     }
-    f8 size = OCC_NORM1(lanes->t[0], lanes->t[1], lanes->t[2]);
-    size += OCC_NORM1(lanes->h[0], lanes->h[1], lanes->h[2]);
-    lanes->e = OCC_BOUND(size, eye->slack_floor);
+    for (uint32_t g = 0; g < NODE_GROUPS; g++) {
+        fnode *t = lanes->group[g].t, *h = lanes->group[g].h;
+        for (uint32_t j = 0; j < 3; j++) {
+            fnode low, high;
+            memcpy(&low, min[j] + g * OCC_NODE_WIDTH, sizeof low);
+            memcpy(&high, max[j] + g * OCC_NODE_WIDTH, sizeof high);
+            low = OCC_RELATIVE(low, eye->high[j], eye->low[j]);
+            high = OCC_RELATIVE(high, eye->high[j], eye->low[j]);
+            t[j] = OCC_MIDDLE(low, high);
+            h[j] = OCC_HALF(low, high);
+        }
+        fnode size = OCC_NORM1(t[0], t[1], t[2]);
+        size += OCC_NORM1(h[0], h[1], h[2]);
+        lanes->group[g].e = OCC_BOUND(size, eye->slack_floor);
+    }
 }
 
 typedef struct sides {
@@ -90,11 +103,18 @@ typedef struct sides {
 } sides;
 
 // Which nodes are inside a plane, and which outside, for certain.
-static inline sides sides_of_nodes(const node_lanes *n, const float plane[4])
+static inline sides sides_of_nodes(const node_lanes *lanes, const float plane[4])
 {
-    f8 s = OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], n->t[0], n->t[1], n->t[2]);
-    f8 r = OCC_REACH_OF_AABB(plane[0], plane[1], plane[2], n->h[0], n->h[1], n->h[2]);
-    return (sides){bits8(OCC_IS_INSIDE(s, r, n->e)), bits8(OCC_IS_OUTSIDE(s, r, n->e))};
+    sides side = {0, 0};
+    for (uint32_t g = 0; g < NODE_GROUPS; g++) {
+        const fnode *t = lanes->group[g].t, *h = lanes->group[g].h;
+        fnode e = lanes->group[g].e;
+        fnode s = OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], t[0], t[1], t[2]);
+        fnode r = OCC_REACH_OF_AABB(plane[0], plane[1], plane[2], h[0], h[1], h[2]);
+        side.inside |= bits_node(OCC_IS_INSIDE(s, r, e)) << g * OCC_NODE_WIDTH;
+        side.outside |= bits_node(OCC_IS_OUTSIDE(s, r, e)) << g * OCC_NODE_WIDTH;
+    }
+    return side;
 }
 
 static void cut(occ_siblings *siblings, const occ_eye *eye)
@@ -147,36 +167,36 @@ static void shade(occ_siblings *siblings, const occ_eye *eye, const occ_candidat
 }
 
 typedef struct object_lanes {
-    f16 t[3];
-    f16 a[9];
-    f16 e;
+    fwide t[3];
+    fwide a[9];
+    fwide e;
 } object_lanes;
 
 static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_t row,
                                 const occ_eye *eye)
 {
     for (uint32_t j = 0; j < 3; j++) {
-        f16 center = load16(occ_boxes_column(boxes, j) + row);
+        fwide center = load_wide(occ_boxes_column(boxes, j) + row);
         o->t[j] = OCC_RELATIVE(center, eye->high[j], eye->low[j]);
     }
     for (uint32_t k = 0; k < 9; k++)
-        o->a[k] = load16(occ_boxes_column(boxes, 3 + k) + row);
-    f16 size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
+        o->a[k] = load_wide(occ_boxes_column(boxes, 3 + k) + row);
+    fwide size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
     size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
     size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
     size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
     o->e = OCC_BOUND(size, eye->slack_floor);
 }
 
-static inline f16 reach_of_objects(const object_lanes *o, const float n[4])
+static inline fwide reach_of_objects(const object_lanes *o, const float n[4])
 {
-    f16 r = OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[0], o->a[1], o->a[2]);
+    fwide r = OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[0], o->a[1], o->a[2]);
     r += OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[3], o->a[4], o->a[5]);
     r += OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[6], o->a[7], o->a[8]);
     return r;
 }
 
-static inline f16 center_of_objects(const object_lanes *o, const float n[4])
+static inline fwide center_of_objects(const object_lanes *o, const float n[4])
 {
     return OCC_PLANE_AT(n[0], n[1], n[2], n[3], o->t[0], o->t[1], o->t[2]);
 }
@@ -186,8 +206,8 @@ static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye
     uint32_t outside = 0;
     for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
         if (!(planes >> p & 1u)) continue;
-        f16 s = center_of_objects(o, eye->plane[p]), r = reach_of_objects(o, eye->plane[p]);
-        outside |= bits16(OCC_IS_OUTSIDE(s, r, o->e));
+        fwide s = center_of_objects(o, eye->plane[p]), r = reach_of_objects(o, eye->plane[p]);
+        outside |= bits_wide(OCC_IS_OUTSIDE(s, r, o->e));
     }
     return outside;
 }
@@ -195,10 +215,10 @@ static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye
 static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *shadow, uint32_t open)
 {
     for (uint32_t p = 0; p < shadow->planes && open; p++) // as in hold_center()
-        open &= bits16(center_of_objects(o, shadow->plane[p]) > o->e);
+        open &= bits_wide(center_of_objects(o, shadow->plane[p]) > o->e);
     for (uint32_t p = 0; p < shadow->planes && open; p++) {
-        f16 s = center_of_objects(o, shadow->plane[p]), r = reach_of_objects(o, shadow->plane[p]);
-        open &= bits16(OCC_IS_INSIDE(s, r, o->e));
+        fwide s = center_of_objects(o, shadow->plane[p]), r = reach_of_objects(o, shadow->plane[p]);
+        open &= bits_wide(OCC_IS_INSIDE(s, r, o->e));
     }
     return open;
 }
@@ -207,18 +227,18 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
                         const occ_candidates *candidates)
 {
     occ_verdict verdict = {{0, 0}, {0, 0}};
-    for (uint32_t i = 0; i < range->count; i += OBJECT_LANES) {
+    for (uint32_t i = 0; i < range->count; i += OCC_WIDTH) {
         object_lanes lanes;
         uint32_t row = range->first + i, left = range->count - i;
         load_objects(&lanes, boxes, row, eye);
-        uint32_t all = left >= OBJECT_LANES ? 0xffffu : (1u << left) - 1u;
+        uint32_t all = left >= OCC_WIDTH ? ALL_WIDE : (1u << left) - 1u;
         uint32_t outside = outside_frustum(&lanes, eye, range->frustum) & all;
         uint32_t open = all & ~outside;
         for (uint32_t c = 0; c < candidates->count && open; c++) {
             const occ_shadow *shadow = &candidates->shadows[candidates->list[c]];
             uint32_t hidden = inside_shadow(&lanes, shadow, open);
             uint32_t own = shadow->owner - row;
-            if (own < OBJECT_LANES) hidden &= ~(1u << own);
+            if (own < OCC_WIDTH) hidden &= ~(1u << own);
             open &= ~hidden;
         }
         verdict.visible[i / 32] |= open << i % 32;

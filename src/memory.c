@@ -89,7 +89,7 @@ void occ_array_free(occ_hooks *hooks, occ_array *array)
 
 void *occ_array_extend(occ_hooks *hooks, occ_array *array, size_t more)
 {
-    size_t needed = array->count + more;
+    size_t needed = array->count + (more ? more : 1u); // never NULL for want of elements
     if (needed > array->capacity) {
         size_t capacity = (size_t)array->capacity + array->capacity / 2 + 16;
         if (occ_array_reserve(hooks, array, capacity > needed ? capacity : needed)) return NULL;

@@ -39,7 +39,7 @@ occ_tree_items occ_scene_occluder_items(const occ_scene *scene)
 static occ_result reserve_objects(occ_scene *scene, size_t more)
 {
     size_t rows = scene->boxes.count + more;
-    if (rows > UINT32_MAX - OCC_BOX_LANES) return OCC_ERROR_LIMIT;
+    if (rows > UINT32_MAX - 2 * OCC_BOX_LANES) return OCC_ERROR_LIMIT;
     occ_result result = occ_slots_reserve(&scene->hooks, &scene->objects, more);
     if (result || rows <= scene->slot_of.capacity) return result;
     size_t grown = (size_t)scene->slot_of.capacity + scene->slot_of.capacity / 8;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of 8 and 16 floats, and their comparisons as bits. Include before geometry.h.
+// Vectors as wide as the target has them, and their comparisons as bits. Include before geometry.h.
+// No wider: compilers spill what they must split.
 #ifndef OCC_WIDE_H
 #define OCC_WIDE_H
 
@@ -13,53 +14,69 @@
 #ifdef __SSE2__
 #include <immintrin.h>
 #endif
-#pragma GCC diagnostic ignored "-Wpsabi" // vectors are passed between inlined functions only
 
-typedef float f8 __attribute__((vector_size(32)));
-typedef float f16 __attribute__((vector_size(64)));
-typedef int32_t i8 __attribute__((vector_size(32)));
-typedef int32_t i16 __attribute__((vector_size(64)));
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define OCC_WIDTH 16
+#elif defined(__AVX2__)
+#define OCC_WIDTH 8
+#else
+#define OCC_WIDTH 4 // SSE2, NEON, or whatever the compiler makes of it
+#endif
 
-static inline f8 abs8(f8 x)
+// As wide as the target, for objects and shadows; and at most 8 wide, for siblings.
+typedef float fwide __attribute__((vector_size(4 * OCC_WIDTH)));
+typedef int32_t iwide __attribute__((vector_size(4 * OCC_WIDTH)));
+#if OCC_WIDTH > 8
+#define OCC_NODE_WIDTH 8
+#else
+#define OCC_NODE_WIDTH OCC_WIDTH
+#endif
+typedef float fnode __attribute__((vector_size(4 * OCC_NODE_WIDTH)));
+typedef int32_t inode __attribute__((vector_size(4 * OCC_NODE_WIDTH)));
+
+static inline fwide abs_wide(fwide x)
 {
-    return (f8)((i8)x & 0x7fffffff);
+    return (fwide)((iwide)x & 0x7fffffff);
 }
 
-static inline f16 abs16(f16 x)
+#if OCC_WIDTH > 8
+static inline fnode abs_node(fnode x)
 {
-    return (f16)((i16)x & 0x7fffffff);
+    return (fnode)((inode)x & 0x7fffffff);
 }
+#define OCC_FABS(x) _Generic((x), float : fabsf, fnode : abs_node, fwide : abs_wide)(x)
+#else
+#define OCC_FABS(x) _Generic((x), float : fabsf, fwide : abs_wide)(x)
+#endif
 
-#define OCC_FABS(x) _Generic((x), float : fabsf, f8 : abs8, f16 : abs16)(x)
-
-static inline f16 load16(const float *from)
+static inline fwide load_wide(const float *from)
 {
-    f16 x;
+    fwide x;
     memcpy(&x, from, sizeof x);
     return x;
 }
 
-// Bit l is lane l's sign: of a comparison's result, whether it holds.
-static inline uint32_t bits8(i8 truth)
+// Bit l says whether a comparison holds in lane l.
+static inline uint32_t bits_node(inode truth)
 {
-#if defined(__AVX2__)
+#if OCC_NODE_WIDTH == 8
     return (uint32_t)_mm256_movemask_ps((__m256)truth);
+#elif defined(__SSE2__)
+    return (uint32_t)_mm_movemask_ps((__m128)truth);
 #else
     uint32_t bits = 0;
-    for (uint32_t l = 0; l < 8; l++)
+    for (uint32_t l = 0; l < OCC_NODE_WIDTH; l++)
         bits |= ((uint32_t)truth[l] >> 31) << l;
     return bits;
 #endif
 }
 
-static inline uint32_t bits16(i16 truth)
+static inline uint32_t bits_wide(iwide truth)
 {
-#if defined(__AVX512DQ__)
+#if OCC_WIDTH == 16
     return _mm512_movepi32_mask((__m512i)truth);
 #else
-    i8 half[2];
-    memcpy(half, &truth, sizeof half);
-    return bits8(half[0]) | bits8(half[1]) << 8;
+    return bits_node(truth);
 #endif
 }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stand in for commands whose packages were not there when this was built.
+#include "commands.h"
+
+#include <stdio.h>
+
+#ifndef OCC_BENCH_CONVERT
+int bench_convert(int argc, char **argv)
+{
+    (void)argc;
+    fprintf(stderr, "occlude-bench %s: built without Assimp or meshoptimizer, which it needs\n",
+            argv[0]);
+    return 1;
+}
+#endif
+
+#ifndef OCC_BENCH_PICTURE
+int bench_picture(int argc, char **argv)
+{
+    (void)argc;
+    fprintf(stderr, "occlude-bench %s: built without stb_image_write.h, which it needs\n", argv[0]);
+    return 1;
+}
+#endif
