@@ -4,7 +4,6 @@
 #include "kit.h"
 
 #include <cglm/cglm.h>
-#include <check.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,8 +59,8 @@ typedef struct block_head {
 static void *heap_alloc(size_t size, size_t alignment, void *user_data)
 {
     kit_heap *heap = user_data;
-    ck_assert_msg(size > 0, "0 bytes were asked for");
-    ck_assert_msg(alignment == 64, "the alignment is %zu", alignment);
+    KIT_CHECK(size > 0, "0 bytes were asked for");
+    KIT_CHECK(alignment == 64, "the alignment is %zu", alignment);
     heap->calls++;
     if (heap->fail_at &&
         (heap->calls == heap->fail_at || (heap->keeps_failing && heap->calls > heap->fail_at))) {
@@ -83,15 +82,15 @@ static void *heap_alloc(size_t size, size_t alignment, void *user_data)
 static void heap_free(void *pointer, size_t size, void *user_data)
 {
     kit_heap *heap = user_data;
-    ck_assert_ptr_nonnull(pointer);
+    KIT_CHECK(pointer, "NULL was freed");
     char *memory = (char *)pointer - MARGIN;
     block_head head;
     memcpy(&head, memory, sizeof head);
-    ck_assert_msg(head.size == size, "%zu bytes came back as %zu", head.size, size);
-    ck_assert_msg(head.heap == heap, "a block came back to another allocator");
-    ck_assert_msg(pthread_equal(head.thread, pthread_self()), "another thread frees the block");
+    KIT_CHECK(head.size == size, "%zu bytes came back as %zu", head.size, size);
+    KIT_CHECK(head.heap == heap, "a block came back to another allocator");
+    KIT_CHECK(pthread_equal(head.thread, pthread_self()), "another thread frees the block");
     for (int i = 0; i < MARGIN; i++)
-        ck_assert_msg(memory[MARGIN + size + (size_t)i] == 0x5a, "byte %d behind a block", i);
+        KIT_CHECK(memory[MARGIN + size + (size_t)i] == 0x5a, "byte %d behind a block", i);
     heap->blocks--;
     heap->bytes -= size;
     memset(pointer, 0xdd, size);
@@ -109,7 +108,7 @@ static void take_line(occ_log_level level, const char *line, void *user_data)
 {
     kit_log *log = user_data;
     size_t length = strlen(line);
-    ck_assert_msg(length > 0 && !strchr(line, '\n'), "a log line is one line");
+    KIT_CHECK(length > 0 && !strchr(line, '\n'), "a log line is one line");
     log->lines++;
     log->errors += level == OCC_LOG_ERROR;
     if (log->used + length + 2 > sizeof log->text) log->used = 0;
@@ -155,12 +154,13 @@ void kit_fill(occ_scene *scene, uint32_t count, uint32_t per, uint64_t seed, occ
         occ_object object;
         occ_occluder occluder;
         occ_box box = house(&random);
-        ck_assert_int_eq(occ_scene_add(scene, &box, &object), OCC_SUCCESS);
+        KIT_CHECK(!occ_scene_add(scene, &box, &object), "an object is refused");
         if (objects) objects[i] = object;
         if (!per || i % per) continue;
         for (int k = 0; k < 9; k++)
             box.axis[k / 3][k % 3] *= 0.9f;
-        ck_assert_int_eq(occ_scene_add_occluder(scene, &box, object, &occluder), OCC_SUCCESS);
+        KIT_CHECK(!occ_scene_add_occluder(scene, &box, object, &occluder),
+                  "an occluder is refused");
         if (occluders) occluders[made++] = occluder;
     }
 }
@@ -190,18 +190,19 @@ void kit_cull(occ_view *view, const occ_scene *scene, const occ_camera_desc *cam
               const occ_cull_desc *desc)
 {
     occ_result result = occ_cull(view, scene, camera, desc);
-    ck_assert_msg(result == OCC_SUCCESS, "%s", occ_result_name(result));
+    KIT_CHECK(result == OCC_SUCCESS, "%s", occ_result_name(result));
 }
 
 uint32_t *kit_mask(const occ_view *view, size_t *words)
 {
     size_t needed = 0, count = 0;
     occ_result result = occ_view_read_mask(view, NULL, 0, &needed);
-    ck_assert(result == OCC_ERROR_BUFFER_TOO_SMALL || (result == OCC_SUCCESS && needed == 0));
+    KIT_CHECK(result == (needed ? OCC_ERROR_BUFFER_TOO_SMALL : OCC_SUCCESS), "%s for %zu words",
+              occ_result_name(result), needed);
     uint32_t *mask = malloc((needed + 1) * sizeof *mask);
-    ck_assert_ptr_nonnull(mask);
-    ck_assert_int_eq(occ_view_read_mask(view, mask, needed, &count), OCC_SUCCESS);
-    ck_assert_uint_eq(count, needed);
+    KIT_CHECK(mask, "out of memory");
+    result = occ_view_read_mask(view, mask, needed, &count);
+    KIT_CHECK(result == OCC_SUCCESS && count == needed, "%s", occ_result_name(result));
     if (words) *words = needed;
     return mask;
 }

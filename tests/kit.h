@@ -4,7 +4,14 @@
 #ifndef OCC_TEST_KIT_H
 #define OCC_TEST_KIT_H
 
+#include <check.h>
 #include <occlude/occlude.h>
+
+// For loops: ck_assert() writes to a pipe even when it holds, this does not.
+#define KIT_CHECK(condition, ...)                                                                  \
+    do {                                                                                           \
+        if (!(condition)) ck_abort_msg(__VA_ARGS__);                                               \
+    } while (0)
 
 // SplitMix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014).
 typedef struct kit_random {
