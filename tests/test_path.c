@@ -10,8 +10,7 @@ static obs_scene walk(const model *m, uint32_t frames, path_report *report)
     ck_assert(path_make(m, frames, 0, &scene, report));
     ck_assert_uint_eq(scene.frame_count, frames);
     for (uint32_t f = 0; f < frames; f++) {
-        const float *numbers = scene.frames[f].eye;
-        for (size_t i = 0; i < sizeof scene.frames[f] / sizeof *numbers; i++) {
+        for (size_t i = 0; i < sizeof scene.frames[f] / sizeof(float); i++) {
             float number;
             memcpy(&number, (const char *)&scene.frames[f] + i * sizeof number, sizeof number);
             ck_assert_msg(isfinite(number), "frame %u, number %zu", f, i);
@@ -52,12 +51,12 @@ END_TEST
 START_TEST(way_leads_through_a_corridor)
 {
     model m = soup_make(60);
-    static const float left[3] = {0, 0, 0}, left_end[3] = {10, 4, 10};
-    static const float right[3] = {30, 0, 0}, right_end[3] = {40, 4, 10};
-    soup_box(&m, left, left_end, true);
-    soup_box(&m, right, right_end, true);
-    // Walls with a doorway instead of the two that face each other (triangles 6 to 7 of a box are
-    // its far x side, 0 to 1 its near one, by soup_box's order of axes and sides).
+    static const float near_low[3] = {0, 0, 0}, near_high[3] = {10, 4, 10};
+    static const float far_low[3] = {30, 0, 0}, far_high[3] = {40, 4, 10};
+    soup_box(&m, near_low, near_high, true);
+    soup_box(&m, far_low, far_high, true);
+    // Of soup_box()'s triangles 0 and 1 are the side of least x, 2 and 3 that of most: the two
+    // sides that face each other give way to walls with a doorway.
     for (uint32_t t = 0; t < 2; t++) {
         memmove(m.corners[2 + t], m.corners[0], sizeof *m.corners);
         memmove(m.corners[12 + t], m.corners[0], sizeof *m.corners);
