@@ -35,7 +35,7 @@ void occ_box_bounds(const occ_box *box, float min[3], float max[3])
 // Center and half size of [min, max], outward.
 static void set_interval(double min, double max, float *center, float *half)
 {
-    *center = (float)(0.5 * min + 0.5 * max);
+    *center = occ_nearest(0.5 * min + 0.5 * max);
     double up = occ_difference_up(max, (double)*center);
     double down = occ_difference_up((double)*center, min);
     *half = occ_round_up(up > down ? up : down);
@@ -46,6 +46,14 @@ static bool finite3(const float *v)
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
+// Whether a box made of finite numbers may be used. What grew beyond a float came from a coordinate
+// out of range.
+static occ_result check_made(const occ_box *box)
+{
+    occ_result result = occ_box_check(box);
+    return result == OCC_ERROR_NOT_FINITE ? OCC_ERROR_OUT_OF_RANGE : result;
+}
+
 static occ_result aligned_box(const float *min, const float *max, occ_box *box)
 {
     occ_box made = {{0}, {{0}}};
@@ -53,7 +61,7 @@ static occ_result aligned_box(const float *min, const float *max, occ_box *box)
         if (min[j] > max[j]) return OCC_ERROR_INVALID_ARGUMENT;
         set_interval((double)min[j], (double)max[j], &made.center[j], &made.axis[j][j]);
     }
-    occ_result result = occ_box_check(&made);
+    occ_result result = check_made(&made);
     if (!result) *box = made;
     return result;
 }
@@ -102,7 +110,7 @@ occ_result occ_box_from_model(const float *model, const float *min, const float 
         }
         made.center[j] = (float)center;
     }
-    occ_result result = occ_box_check(&made);
+    occ_result result = check_made(&made);
     if (!result) *box = made;
     return result;
 }

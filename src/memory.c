@@ -89,6 +89,7 @@ void occ_array_free(occ_hooks *hooks, occ_array *array)
 
 void *occ_array_extend(occ_hooks *hooks, occ_array *array, size_t more)
 {
+    if (more > UINT32_MAX) return NULL;
     size_t needed = array->count + (more ? more : 1u); // never NULL for want of elements
     if (needed > array->capacity) {
         size_t capacity = (size_t)array->capacity + array->capacity / 2 + 16;

@@ -83,8 +83,9 @@ void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint3
 
 void occ_octree_free(occ_hooks *hooks, occ_octree *tree);
 
-// NULL, or the name of the first invariant that does not hold. rows as above.
+// NULL, or the name of the first invariant that does not hold. rows as above; names[i] is the slot
+// of the item at place i, which breaks ties.
 const char *occ_octree_validate(const occ_octree *tree, const occ_tree_items *items,
-                                const uint32_t *rows, uint32_t count);
+                                const uint32_t *rows, const uint32_t *names, uint32_t count);
 
 #endif

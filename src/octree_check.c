@@ -11,6 +11,7 @@ static const char *check_ranges(const occ_octree *tree, const occ_node *node)
     if (!node->count) return "a node has items";
     if (next < node->first || next > end) return "a node's own items come first";
     if (node->children > 8) return "a node has at most eight children";
+    if (node->level > OCC_TREE_BITS) return "a node's level is one of cells";
     for (uint32_t c = 0; c < node->children; c++) {
         const occ_node *child = &nodes[node->child + c];
         if (child->first != next)
@@ -38,43 +39,85 @@ static const char *check_bounds(const occ_node *node, const occ_tree_items *item
         }
     }
     for (int j = 0; j < 3; j++) {
-        if (tight.min[j] < node->min[j] || tight.max[j] > node->max[j]) {
+        if (!(node->min[j] <= tight.min[j] && tight.max[j] <= node->max[j])) {
             return "an item lies inside its node's bounds";
         }
-        if (tight.min[j] > node->min[j] || tight.max[j] < node->max[j]) {
+        if (node->min[j] != tight.min[j] || node->max[j] != tight.max[j]) {
             return "a node's bounds are tight";
         }
     }
     return NULL;
 }
 
-// Every key of the node's items agrees with the node's cell, and none belongs higher up.
+static uint64_t key_at(const occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
+                       uint32_t i)
+{
+    float min[3], max[3];
+    items->bounds(items->table, rows ? rows[i] : i, min, max);
+    return occ_octree_key(&tree->root, min, max);
+}
+
+// The level of the smallest cell that both keys' cells lie in.
+static uint32_t level_of_both(uint64_t a, uint64_t b)
+{
+    uint32_t level = OCC_TREE_BITS;
+    while (level && (a ^ b) >> (3 * (OCC_TREE_BITS - level) + 5))
+        level--;
+    level = (a & 31u) < level ? (uint32_t)(a & 31u) : level;
+    return (b & 31u) < level ? (uint32_t)(b & 31u) : level;
+}
+
+// The node's cell is the one that its items' keys ask for, and none of them belongs elsewhere.
 static const char *check_cells(const occ_octree *tree, const occ_node *node,
                                const occ_tree_items *items, const uint32_t *rows)
 {
-    uint32_t shift = 3 * (OCC_TREE_BITS - node->level) + 5;
-    uint64_t cell = 0, last = 0;
-    for (uint32_t i = node->first; i < node->first + node->count; i++) {
-        float min[3], max[3];
-        items->bounds(items->table, rows ? rows[i] : i, min, max);
-        uint64_t key = occ_octree_key(&tree->root, min, max);
-        if (i == node->first) cell = key >> shift;
-        if (key >> shift != cell) return "an item lies in its node's cell";
-        if ((key & 31u) < node->level) return "an item is not below the level its size deserves";
+    uint64_t first = key_at(tree, items, rows, node->first), last = first;
+    uint32_t level = OCC_TREE_BITS, own = occ_node_own(tree, node);
+    bool is_full = node->count > tree->leaf_items;
+    for (uint32_t i = 0; i < node->count; i++) {
+        uint64_t key = key_at(tree, items, rows, node->first + i);
+        uint32_t both = level_of_both(first, key);
+        level = both < level ? both : level;
         if (key < last) return "items lie in ascending order of keys";
+        if (i < own && is_full && (key & 31u) != node->level) {
+            return "a node with too many items keeps those of its own level only";
+        }
         last = key;
     }
+    if (level != node->level) return "a node's cell is the smallest that holds its items' cells";
+    return node->children && !is_full ? "a node is split only if it has too many items" : NULL;
+}
+
+// Among items of one key the one with the smaller name comes first: what the order of insertion was
+// cannot show.
+static const char *check_ties(const occ_octree *tree, const occ_tree_items *items,
+                              const uint32_t *rows, const uint32_t *names, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++) {
+        if (names[i] > names[i - 1]) continue;
+        if (key_at(tree, items, rows, i) == key_at(tree, items, rows, i - 1)) {
+            return "items of one key lie in ascending order of slots";
+        }
+    }
     return NULL;
+}
+
+static bool is_root_of(const occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
+                       uint32_t count)
+{
+    occ_root root = occ_octree_root(items, rows, count);
+    return !memcmp(&root, &tree->root, sizeof root);
 }
 
 static const char *check_levels(const occ_octree *tree)
 {
     uint32_t next = 1; // where the children of the first node with any must begin
+    if (tree->levels > OCC_TREE_DEPTH) return "a level is one of cells";
     if (tree->level_first[0] != 0) return "the first level begins at the first node";
     for (uint32_t level = 0; level < tree->levels; level++) {
         uint32_t begin = tree->level_first[level], end = tree->level_first[level + 1];
-        if (begin >= end) return "a level has nodes";
-        if (level && next < end) return "every node but the root has a parent on the level above";
+        if (begin >= end || end > tree->nodes.count) return "a level has nodes";
+        if (next != end) return "a level holds the children of the level above";
         for (uint32_t i = begin; i < end; i++) {
             const occ_node *node = &occ_octree_nodes(tree)[i];
             if (!node->children) continue;
@@ -89,21 +132,18 @@ static const char *check_levels(const occ_octree *tree)
 }
 
 const char *occ_octree_validate(const occ_octree *tree, const occ_tree_items *items,
-                                const uint32_t *rows, uint32_t count)
+                                const uint32_t *rows, const uint32_t *names, uint32_t count)
 {
     if (!count) return tree->nodes.count ? "a tree without items has no nodes" : NULL;
     if (!tree->nodes.count) return "a tree with items has a root";
     const occ_node *nodes = occ_octree_nodes(tree);
     if (nodes[0].first != 0 || nodes[0].count != count) return "the root holds every item";
+    if (!is_root_of(tree, items, rows, count)) return "the root cube is what the items ask for";
     const char *broken = check_levels(tree);
     for (uint32_t i = 0; i < tree->nodes.count && !broken; i++) {
         broken = check_ranges(tree, &nodes[i]);
-        if (!broken && nodes[i].children == 0 && nodes[i].count > tree->leaf_items &&
-            occ_node_own(tree, &nodes[i]) != nodes[i].count) {
-            broken = "a leaf holds at most as many items as asked for";
-        }
         if (!broken) broken = check_cells(tree, &nodes[i], items, rows);
         if (!broken) broken = check_bounds(&nodes[i], items, rows);
     }
-    return broken;
+    return broken ? broken : check_ties(tree, items, rows, names, count);
 }

@@ -73,7 +73,8 @@ bool occ_view_is_visible(const occ_view *view, occ_object object)
 
 occ_result occ_view_get_stats(const occ_view *view, occ_view_stats *stats)
 {
-    if (!stats) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!view) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!stats) return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "the stats are NULL");
     occ_result result = check(view, NULL);
     if (!result) *stats = view->frame.stats;
     return result;

@@ -11,6 +11,7 @@
 
 #define DEFAULT_LEAF_OBJECTS 64u
 #define MOST_LEAF_OBJECTS    1024u
+#define MOST_ITEMS           (UINT32_MAX - 2u * OCC_BOX_LANES)
 
 static atomic_uint_least64_t scenes_made;
 
@@ -39,7 +40,7 @@ occ_tree_items occ_scene_occluder_items(const occ_scene *scene)
 static occ_result reserve_objects(occ_scene *scene, size_t more)
 {
     size_t rows = scene->boxes.count + more;
-    if (rows > UINT32_MAX - 2 * OCC_BOX_LANES) return OCC_ERROR_LIMIT;
+    if (more > MOST_ITEMS || rows > MOST_ITEMS) return OCC_ERROR_LIMIT;
     occ_result result = occ_slots_reserve(&scene->hooks, &scene->objects, more);
     if (result || rows <= scene->slot_of.capacity) return result;
     size_t grown = (size_t)scene->slot_of.capacity + scene->slot_of.capacity / 8;
@@ -111,12 +112,18 @@ void occ_scene_destroy(occ_scene *scene)
     occ_free(&hooks, scene, sizeof *scene);
 }
 
+static occ_result missing(const occ_scene *scene, const char *what)
+{
+    return occ_fail(&scene->hooks, OCC_ERROR_INVALID_ARGUMENT, "%s NULL", what);
+}
+
 // Checks `count` boxes and names the first bad one.
 static occ_result check_boxes(const occ_scene *scene, const occ_box *boxes, size_t count,
                               const char *what)
 {
-    if (count && !boxes) {
-        return occ_fail(&scene->hooks, OCC_ERROR_INVALID_ARGUMENT, "the boxes are NULL");
+    if (count && !boxes) return missing(scene, "the boxes are");
+    if (count > MOST_ITEMS) {
+        return occ_fail(&scene->hooks, OCC_ERROR_LIMIT, "%zu %s", count, what);
     }
     for (size_t i = 0; i < count; i++) {
         occ_result result = occ_box_check(&boxes[i]);
@@ -156,7 +163,8 @@ occ_result occ_scene_add_many(occ_scene *scene, const occ_box *boxes, size_t cou
 
 occ_result occ_scene_add(occ_scene *scene, const occ_box *box, occ_object *object)
 {
-    if (!scene || !box || !object) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!box || !object) return missing(scene, "the box or the object is");
     return occ_scene_add_many(scene, box, 1, object);
 }
 
@@ -200,9 +208,7 @@ occ_result occ_scene_move_many(occ_scene *scene, const occ_object *objects, cons
                                size_t count)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    if (count && !objects) {
-        return occ_fail(&scene->hooks, OCC_ERROR_INVALID_ARGUMENT, "the objects are NULL");
-    }
+    if (count && !objects) return missing(scene, "the objects are");
     occ_result result = check_boxes(scene, boxes, count, "to move");
     for (size_t i = 0; i < count && !result; i++) {
         if (!occ_scene_contains(scene, objects[i])) {
@@ -258,7 +264,7 @@ occ_result occ_scene_add_occluders(occ_scene *scene, const occ_box *boxes, const
 occ_result occ_scene_add_occluder(occ_scene *scene, const occ_box *box, occ_object owner,
                                   occ_occluder *occluder)
 {
-    if (!scene || !box) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     return occ_scene_add_occluders(scene, box, &owner, 1, occluder);
 }
 
@@ -305,7 +311,8 @@ bool occ_scene_contains(const occ_scene *scene, occ_object object)
 
 occ_result occ_scene_box(const occ_scene *scene, occ_object object, occ_box *box)
 {
-    if (!scene || !box) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!box) return missing(scene, "the box is");
     if (!occ_scene_contains(scene, object)) {
         return stale(scene, "object", object.index, object.generation);
     }
@@ -337,7 +344,8 @@ uint32_t occ_scene_slot_count(const occ_scene *scene)
 
 occ_result occ_scene_get_stats(const occ_scene *scene, occ_scene_stats *stats)
 {
-    if (!scene || !stats) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
+    if (!stats) return missing(scene, "the stats are");
     *stats = (occ_scene_stats){.objects = scene->objects.taken,
                                .occluders = scene->occluders.taken,
                                .slots = scene->objects.count,

@@ -5,6 +5,7 @@
 
 occ_result occ_slots_reserve(occ_hooks *hooks, occ_slots *slots, size_t more)
 {
+    if (more >= OCC_NO_SLOT - 1u) return OCC_ERROR_LIMIT;
     size_t needed = more > slots->free_count ? slots->count + (more - slots->free_count) : 0;
     if (needed <= slots->capacity) return OCC_SUCCESS;
     if (needed >= OCC_NO_SLOT - 1u) return OCC_ERROR_LIMIT;
@@ -101,15 +102,25 @@ static uint32_t list_length(const occ_slots *slots, uint32_t head)
 
 const char *occ_slots_validate(const occ_slots *slots)
 {
-    uint32_t taken = 0;
-    for (uint32_t s = 0; s < slots->count; s++)
+    uint32_t taken = 0, listed = 0;
+    for (uint32_t s = 0; s < slots->count; s++) {
         taken += occ_slots_is_taken(slots, s);
+        listed += !occ_slots_is_taken(slots, s) && slots->generation[s];
+    }
     if (taken != slots->taken) return "the number of taken slots is their sum";
     if (list_length(slots, slots->free) != slots->free_count) {
         return "the free list holds the free slots";
     }
     if (list_length(slots, slots->released) != slots->released_count) {
         return "the released list holds the released slots";
+    }
+    if (listed != slots->free_count + slots->released_count) {
+        return "a slot that is neither taken nor retired is in a list";
+    }
+    if (slots->released != OCC_NO_SLOT && (slots->released_last >= slots->count ||
+                                           slots->value[slots->released_last] != OCC_NO_SLOT ||
+                                           occ_slots_is_taken(slots, slots->released_last))) {
+        return "the last released slot ends its list";
     }
     return NULL;
 }
