@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: property oracle
 // The numbers without rounding against GMP's rationals.
-#include "exact.h"
 #include "steady.h"
 #include "support.h"
+#include "unrounded.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -22,7 +22,7 @@ static float any_float(steady_random *random)
     return (float)ldexp(steady_below(random, 2) ? mantissa : -mantissa, exponent);
 }
 
-static void to_rational(mpq_t out, const exact *a, unsigned factors)
+static void to_rational(mpq_t out, const unrounded *a, unsigned factors)
 {
     mpz_t whole;
     mpz_init(whole);
@@ -59,7 +59,7 @@ START_TEST(float_is_kept_as_it_is)
     mpq_t want, got;
     mpq_inits(want, got, NULL);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        exact a = exact_from(values[i]);
+        unrounded a = unrounded_from(values[i]);
         to_rational(got, &a, 1);
         mpq_set_d(want, (double)values[i]);
         ck_assert_msg(mpq_equal(want, got), "%a", (double)values[i]);
@@ -71,27 +71,27 @@ END_TEST
 
 START_TEST(determinant_of_differences_equals_the_rational_one)
 {
-    steady_random random = steady_seed(1, "exact");
+    steady_random random = steady_seed(1, "unrounded");
     mpq_t want, got, v[3][3], base;
     mpq_inits(want, got, base, NULL);
     for (int i = 0; i < 9; i++)
         mpq_init(v[i / 3][i % 3]);
     for (int trial = 0; trial < TRIALS; trial++) {
-        exact_vector p[4], d[3];
+        unrounded_vector p[4], d[3];
         float f[4][3];
         for (int i = 0; i < 12; i++)
             f[i / 3][i % 3] = any_float(&random);
         for (int i = 0; i < 4; i++)
-            p[i] = exact_vector_from(f[i]);
+            p[i] = unrounded_vector_from(f[i]);
         for (int i = 0; i < 3; i++) {
-            d[i] = exact_vector_subtract(&p[i + 1], &p[0]);
+            d[i] = unrounded_vector_subtract(&p[i + 1], &p[0]);
             for (int k = 0; k < 3; k++) {
                 mpq_set_d(v[i][k], (double)f[i + 1][k]);
                 mpq_set_d(base, (double)f[0][k]);
                 mpq_sub(v[i][k], v[i][k], base);
             }
         }
-        exact value = exact_determinant(&d[0], &d[1], &d[2]);
+        unrounded value = unrounded_determinant(&d[0], &d[1], &d[2]);
         rational_determinant(want, v);
         to_rational(got, &value, 3);
         ck_assert_msg(mpq_equal(want, got), "trial %d", trial);
@@ -105,13 +105,13 @@ END_TEST
 
 START_TEST(sum_and_difference_undo_each_other)
 {
-    steady_random random = steady_seed(2, "exact");
+    steady_random random = steady_seed(2, "unrounded");
     for (int trial = 0; trial < TRIALS; trial++) {
-        exact a = exact_from(any_float(&random)), b = exact_from(any_float(&random));
-        exact sum = exact_add(&a, &b), back = exact_subtract(&sum, &b);
+        unrounded a = unrounded_from(any_float(&random)), b = unrounded_from(any_float(&random));
+        unrounded sum = unrounded_add(&a, &b), back = unrounded_subtract(&sum, &b);
         ck_assert_int_eq(back.sign, a.sign);
-        ck_assert_int_eq(exact_compare_magnitude(&back, &a), 0);
-        exact nothing = exact_subtract(&a, &a);
+        ck_assert_int_eq(unrounded_compare_magnitude(&back, &a), 0);
+        unrounded nothing = unrounded_subtract(&a, &a);
         ck_assert_int_eq(nothing.sign, 0);
         ck_assert_uint_eq(nothing.used, 0);
     }
@@ -120,7 +120,7 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("exact");
+    Suite *suite = suite_create("unrounded");
     TCase *values = tcase_create("values");
     tcase_add_test(values, float_is_kept_as_it_is);
     tcase_add_test(values, determinant_of_differences_equals_the_rational_one);
