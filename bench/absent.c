@@ -8,8 +8,7 @@
 int bench_convert(int argc, char **argv)
 {
     (void)argc;
-    fprintf(stderr, "occlude-bench %s: built without Assimp or meshoptimizer, which it needs\n",
-            argv[0]);
+    fprintf(stderr, "occlude-bench %s: built without Assimp, which it needs\n", argv[0]);
     return 1;
 }
 #endif

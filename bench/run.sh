@@ -29,7 +29,8 @@ measure() {
     measure_scene=$1 measure_method=$2 measure_backend=$3
     shift 3
     measure_stem=$results/$measure_scene-$measure_method-$measure_backend
-    "$bench" cull "$scenes/$measure_scene.obs" --method "$measure_method" --backend "$measure_backend" \
+    if [ "$measure_backend" = openmp1 ]; then set -- --threads 1 "$@"; fi # one thread
+    "$bench" cull "$scenes/$measure_scene.obs" --method "$measure_method" --backend "${measure_backend%1}" \
         --csv "$measure_stem.csv" "$@" >"$measure_stem.txt" || return 1
     { tail -n 1 "$measure_stem.txt" | tr '\n' ' '
       sed -n 's/^library memory.* \([0-9.]*\) bytes per object$/bytes_per_object=\1/p' "$measure_stem.txt"
@@ -41,7 +42,7 @@ measure() {
 verdicts() {
     verdicts_scene=$1 verdicts_method=$2
     shift 2
-    for verdicts_backend in plain openmp $opencl; do
+    for verdicts_backend in plain openmp1 openmp $opencl; do
         verdicts_file=$scenes/$verdicts_scene-$verdicts_method-$verdicts_backend.vis
         measure "$verdicts_scene" "$verdicts_method" "$verdicts_backend" --out "$verdicts_file" "$@"
         if ! cmp -s "$verdicts_file" "$scenes/$verdicts_scene-$verdicts_method-plain.vis"; then

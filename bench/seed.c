@@ -45,8 +45,8 @@ static const char seed_usage[] =
     "                 (default 1,10,100,501,1001,5001,... 1000000)\n"
     "  --scenes S     scenes for each number, seeds 1 to S; counts are means and times medians\n"
     "                 over them (default 5)\n"
-    "  --backend B    plain (default: one thread), openmp or opencl\n"
-    "  --threads T    threads of the openmp backend (default: one to a processor)\n"
+    "  --backend B    openmp (default), plain or opencl\n"
+    "  --threads T    threads of the openmp backend (default: 1)\n"
     "  --repeat R     timed culls of each scene (default 21)\n"
     "  --csv F.csv    write the table as CSV\n"
     "  --plot P.png   draw both curves (needs gnuplot)\n"
@@ -188,7 +188,8 @@ int bench_seed(int argc, char **argv)
     seed_arguments arguments = {.counts = seed_default_counts, .scenes = 5};
     arguments.settings = measure_defaults();
     arguments.settings.repeats = 21;
-    arguments.settings.backend = "plain";
+    arguments.settings.backend = "openmp";
+    arguments.settings.threads = 1;
     const options_entry entries[] = {{"--counts", OPTIONS_TEXT, &arguments.counts},
                                      {"--scenes", OPTIONS_COUNT, &arguments.scenes},
                                      {"--backend", OPTIONS_TEXT, &arguments.settings.backend},

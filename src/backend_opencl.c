@@ -5,7 +5,6 @@
 
 #include "cl_device.h"
 #include "log.h"
-#include "view_data.h"
 
 #define COLUMN_BYTES(boxes) ((size_t)(boxes)->stride * sizeof(float))
 
@@ -185,35 +184,23 @@ static void destroy(occ_tester *base)
 
 static const occ_backend_ops opencl_ops = {"opencl", upload, test, read_verdicts, destroy};
 
-occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **made)
+occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **backend)
 {
     static const occ_cl_desc defaults;
-    opencl_backend *backend = occ_alloc(hooks, sizeof *backend);
-    *made = NULL;
-    if (!backend) return OCC_ERROR_OUT_OF_MEMORY;
-    *backend = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
-    occ_result result = occ_cl_device_open(&backend->device, hooks, desc ? desc : &defaults);
+    opencl_backend *made = occ_alloc(hooks, sizeof *made);
+    *backend = NULL;
+    if (!made) return OCC_ERROR_OUT_OF_MEMORY;
+    *made = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
+    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults);
     if (result) {
-        occ_free(hooks, backend, sizeof *backend);
+        occ_free(hooks, made, sizeof *made);
         return result;
     }
-    *made = &backend->base;
+    *backend = &made->base;
     return OCC_SUCCESS;
 }
 
-occ_result occ_cl_view_create(const occ_view_desc *view_desc, const occ_cl_desc *desc,
-                              occ_view **view)
+cl_device_id occ_backend_opencl_device(const occ_tester *backend)
 {
-    if (!view) return OCC_ERROR_INVALID_ARGUMENT;
-    *view = NULL;
-    occ_view_desc made = {.backend = OCC_BACKEND_OPENCL};
-    if (view_desc) made = *view_desc;
-    made.backend = OCC_BACKEND_OPENCL;
-    return occ_view_make(&made, desc, view);
-}
-
-cl_device_id occ_cl_view_device(const occ_view *view)
-{
-    if (!view || view->backend->ops != &opencl_ops) return NULL;
-    return ((const opencl_backend *)view->backend)->device.id;
+    return backend->ops == &opencl_ops ? ((const opencl_backend *)backend)->device.id : NULL;
 }

@@ -35,7 +35,7 @@ void occ_box_bounds(const occ_box *box, float min[3], float max[3])
 // Center and half size of [min, max], outward.
 static void set_interval(double min, double max, float *center, float *half)
 {
-    *center = (float)(0.5 * min + 0.5 * max);
+    *center = occ_nearest(0.5 * min + 0.5 * max);
     double up = occ_difference_up(max, (double)*center);
     double down = occ_difference_up((double)*center, min);
     *half = occ_round_up(up > down ? up : down);

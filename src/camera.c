@@ -153,7 +153,7 @@ static void set_constants(occ_camera *camera)
 {
     double reach = 0.0;
     for (int j = 0; j < 3; j++) {
-        float high = (float)camera->eye[j];
+        float high = occ_nearest(camera->eye[j]);
         camera->constants.high[j] = high;
         camera->constants.low[j] = (float)(camera->eye[j] - (double)high);
         reach += fabs(camera->eye[j]);

@@ -3,7 +3,7 @@
 #ifndef OCC_CL_DEVICE_H
 #define OCC_CL_DEVICE_H
 
-#include "memory.h"
+#include "backend.h"
 
 #include <occlude/opencl.h>
 
@@ -20,6 +20,9 @@ typedef struct occ_cl_device {
 occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc);
 
 void occ_cl_device_close(occ_cl_device *device);
+
+// The device of an OpenCL backend, or NULL if it is another.
+cl_device_id occ_backend_opencl_device(const occ_tester *backend);
 
 // Logs a failed call and returns the result that it amounts to.
 occ_result occ_cl_fail(const occ_hooks *hooks, cl_int error, const char *call);

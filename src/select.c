@@ -146,6 +146,9 @@ static occ_result open_node(occ_frame *frame, const select_entry *entry)
     frame->stats.nodes_tested++;
     if (is_hidden(frame, &box)) return OCC_SUCCESS;
     const uint32_t *order = frame->scene->occluder_order.data;
+    const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
+    for (uint32_t i = 0, own = occ_node_own(tree, node); i < own; i++)
+        __builtin_prefetch(&boxes[order[node->first + i]]);
     for (uint32_t i = 0, own = occ_node_own(tree, node); i < own; i++) {
         if (push_occluder(frame, order[node->first + i], entry->what)) {
             return OCC_ERROR_OUT_OF_MEMORY;

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture.h"
+
+#include "commands.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// Colours that most colour-blind eyes tell apart (Okabe and Ito 2008), and a grey.
+const canvas_color picture_colors[3] = {{196, 200, 206}, {227, 119, 51}, {42, 164, 120}};
+const canvas_color picture_occluder_color = {38, 98, 178};
+const canvas_color picture_ink = {32, 36, 44};
+const canvas_color picture_paper = {255, 255, 255};
+
+static const canvas_color picture_margin = {241, 242, 244};
+
+typedef struct picture_arguments {
+    const char *scene, *out, *vis, *frame_text, *size_text;
+    uint64_t frame, width, height;
+} picture_arguments;
+
+static const char picture_usage[] =
+    "usage: occlude-bench picture F.obs --frame K --out P.png [options]\n"
+    "\n"
+    "Draws what was decided in a frame, from above and from the camera: the visible objects, the\n"
+    "hidden ones, those outside the frustum, and the occluders that were used.\n"
+    "\n"
+    "  --frame K     which frame of the file, from 0 (default 0)\n"
+    "  --out P.png   where to\n"
+    "  --vis R.vis   take the verdicts from this file (of occlude-bench cull) instead of deciding\n"
+    "                with method single\n"
+    "  --size WxH    of the picture (default 1600x672)\n"
+    "\n"
+    "Boxes are drawn: objects are what lies inside them. From above nothing is buried under\n"
+    "anything, whatever its height; what is very large is drawn pale.\n"
+    "\n"
+    "Example: occlude-bench picture city.obs --frame 20 --out city.png\n";
+
+static bool parse_size(picture_arguments *arguments)
+{
+    char text[32];
+    arguments->width = 1600;
+    arguments->height = 672;
+    if (!arguments->size_text) return true;
+    snprintf(text, sizeof text, "%s", arguments->size_text);
+    char *x = strchr(text, 'x');
+    if (!x || strlen(arguments->size_text) >= sizeof text) return false;
+    *x = '\0';
+    return options_number(text, 800, 4096, &arguments->width) &&
+           options_number(x + 1, 400, 4096, &arguments->height);
+}
+
+// Returns 0, 2 after a complaint, or OPTIONS_HELP.
+static int parse_picture(int argc, char **argv, picture_arguments *arguments)
+{
+    *arguments = (picture_arguments){0};
+    const options_entry entries[] = {{"--frame", OPTIONS_TEXT, &arguments->frame_text},
+                                     {"--out", OPTIONS_TEXT, &arguments->out},
+                                     {"--vis", OPTIONS_TEXT, &arguments->vis},
+                                     {"--size", OPTIONS_TEXT, &arguments->size_text},
+                                     {NULL, OPTIONS_FLAG, NULL}};
+    char *words[1];
+    int count = options_parse(argc, argv, entries, words, 1);
+    if (count == OPTIONS_HELP) return OPTIONS_HELP;
+    if (count == OPTIONS_BAD) return 2;
+    if (count != 1) return options_complain(argv[0], "expected a scene file");
+    if (!arguments->out) return options_complain(argv[0], "expected --out P.png");
+    arguments->scene = words[0];
+    if (arguments->frame_text &&
+        !options_number(arguments->frame_text, 0, UINT32_MAX, &arguments->frame))
+        return options_complain(argv[0], "expected a number from 0 after --frame");
+    if (!parse_size(arguments))
+        return options_complain(argv[0], "expected WxH after --size, from 800x400 to 4096x4096");
+    return 0;
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+// 1234567 as 1,234,567.
+static const char *grouped(uint64_t number, char out[32])
+{
+    char digits[32];
+    int length = snprintf(digits, sizeof digits, "%llu", (unsigned long long)number), place = 0;
+    for (int i = 0; i < length; i++) {
+        if (i > 0 && (length - i) % 3 == 0) out[place++] = ',';
+        out[place++] = digits[i];
+    }
+    out[place] = '\0';
+    return out;
+}
+
+// Distances are thought for a picture 1600 pixels wide and grow with it.
+static int scaled(const canvas *c, double pixels)
+{
+    return (int)(pixels * c->width / 1600);
+}
+
+static int dot_size(const canvas *c)
+{
+    return scaled(c, 2) > 0 ? scaled(c, 2) : 1;
+}
+
+static void draw_title(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
+{
+    char text[240], hidden[32], inside[32];
+    uint32_t in_frustum = facts->counts[PICTURE_VISIBLE] + facts->counts[PICTURE_HIDDEN];
+    double share = in_frustum ? 100.0 * facts->counts[PICTURE_HIDDEN] / in_frustum : 0;
+    snprintf(text, sizeof text,
+             "%.60s, frame %u of %u: %s of %s objects in the frustum are hidden (%.1f %%)",
+             base_name(arguments->scene), (unsigned)arguments->frame, facts->scene->frame_count,
+             grouped(facts->counts[PICTURE_HIDDEN], hidden), grouped(in_frustum, inside), share);
+    canvas_text(c, scaled(c, 16), scaled(c, 12), dot_size(c), picture_ink, text);
+}
+
+// Returns where the next one goes.
+static int draw_key(canvas *c, int x, int y, canvas_color color, const char *label)
+{
+    canvas_rect swatch = {x, y - scaled(c, 2), scaled(c, 18), scaled(c, 18)};
+    canvas_fill(c, swatch, color);
+    canvas_frame(c, swatch, CANVAS_FINE, picture_ink);
+    canvas_text(c, x + scaled(c, 26), y, dot_size(c), picture_ink, label);
+    return x + scaled(c, 56) + canvas_text_width(label, dot_size(c));
+}
+
+static void draw_legend(canvas *c, int y, const picture_facts *facts)
+{
+    static const struct {
+        picture_verdict verdict;
+        const char *text;
+    } keys[3] = {{PICTURE_VISIBLE, "visible"},
+                 {PICTURE_HIDDEN, "hidden, not drawn"},
+                 {PICTURE_OUTSIDE, "outside the frustum"}};
+    char label[128], number[32], all[32];
+    int x = scaled(c, 16);
+    for (int i = 0; i < 3; i++) {
+        snprintf(label, sizeof label, "%s %s", grouped(facts->counts[keys[i].verdict], number),
+                 keys[i].text);
+        x = draw_key(c, x, y, picture_colors[keys[i].verdict], label);
+    }
+    if (!facts->used_known) return;
+    snprintf(label, sizeof label, "%s of %s occluders used", grouped(facts->used_count, number),
+             grouped(facts->scene->occluder_count, all));
+    draw_key(c, x, y, picture_occluder_color, label);
+}
+
+// Both panels have one height; the map is square, and the other as wide as the camera sees.
+static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *map,
+                         canvas_rect *camera)
+{
+    int margin = scaled(c, 16), top = scaled(c, 68), bottom = scaled(c, 46);
+    float aspect = frame->proj[0] != 0.0f ? frame->proj[5] / frame->proj[0] : 1.0f;
+    if (!(aspect > 0.2f && aspect < 5.0f)) aspect = 16.0f / 9.0f;
+    int height = c->height - top - bottom;
+    int widest = (int)((float)(c->width - 3 * margin) / (1.0f + aspect));
+    if (height > widest) height = widest;
+    *map = (canvas_rect){margin, top, height, height};
+    *camera = (canvas_rect){2 * margin + height, top, (int)((float)height * aspect), height};
+}
+
+static bool draw_all(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
+{
+    static const char camera_caption[] =
+        "from the camera: hidden objects, striped, shine through what hides them";
+    canvas_rect map, camera;
+    char caption[96];
+    place_panels(c, facts->frame, &map, &camera);
+    if (!picture_draw_map(c, map, facts, caption, sizeof caption) ||
+        !picture_draw_camera(c, camera, facts)) {
+        fputs("occlude-bench: not enough memory\n", stderr);
+        return false;
+    }
+    int y = map.y - scaled(c, 22);
+    canvas_text(c, map.x, y, dot_size(c), picture_ink, caption);
+    canvas_text(c, camera.x, y, dot_size(c), picture_ink, camera_caption);
+    canvas_frame(c, map, CANVAS_FINE, picture_ink);
+    canvas_frame(c, camera, CANVAS_FINE, picture_ink);
+    draw_title(c, arguments, facts);
+    draw_legend(c, map.y + map.height + scaled(c, 20), facts);
+    return true;
+}
+
+static bool draw_picture(const picture_arguments *arguments, const picture_facts *facts)
+{
+    canvas c;
+    if (!canvas_create(&c, (int)arguments->width, (int)arguments->height, picture_margin)) {
+        fputs("occlude-bench: not enough memory\n", stderr);
+        return false;
+    }
+    bool good = draw_all(&c, arguments, facts) && canvas_write_png(&c, arguments->out);
+    canvas_free(&c);
+    return good;
+}
+
+static bool picture_of(const picture_arguments *arguments, const obs_scene *scene)
+{
+    picture_facts facts;
+    if (arguments->frame >= scene->frame_count) {
+        fprintf(stderr, "occlude-bench: %s: no frame %u among %u\n", arguments->scene,
+                (unsigned)arguments->frame, scene->frame_count);
+        return false;
+    }
+    if (!picture_decide(scene, (uint32_t)arguments->frame, arguments->vis, &facts)) return false;
+    bool good = draw_picture(arguments, &facts);
+    if (good)
+        printf("frame=%u objects=%u visible=%u hidden=%u outside=%u occluders_used=%zu\n",
+               (unsigned)arguments->frame, scene->object_count, facts.counts[PICTURE_VISIBLE],
+               facts.counts[PICTURE_HIDDEN], facts.counts[PICTURE_OUTSIDE], facts.used_count);
+    picture_facts_free(&facts);
+    return good;
+}
+
+int bench_picture(int argc, char **argv)
+{
+    picture_arguments arguments;
+    int status = parse_picture(argc, argv, &arguments);
+    if (status == OPTIONS_HELP) return fputs(picture_usage, stdout) < 0;
+    if (status != 0) return status;
+    obs_scene scene;
+    if (!obs_read(arguments.scene, &scene)) return 1;
+    bool good = picture_of(&arguments, &scene);
+    obs_free(&scene);
+    return good ? 0 : 1;
+}

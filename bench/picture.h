@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What one frame's picture tells, and the parts that draw it.
+#ifndef OCC_BENCH_PICTURE_H
+#define OCC_BENCH_PICTURE_H
+
+#include "canvas.h"
+#include "obs.h"
+
+/// What became of an object.
+typedef enum picture_verdict {
+    PICTURE_OUTSIDE = 0, ///< Outside the frustum.
+    PICTURE_HIDDEN = 1,
+    PICTURE_VISIBLE = 2
+} picture_verdict;
+
+/// A frame and its verdicts. picture_facts_free() it when done.
+typedef struct picture_facts {
+    const obs_scene *scene;
+    const obs_frame *frame;
+    uint8_t *verdicts;  ///< A picture_verdict for each object.
+    uint32_t counts[3]; ///< Objects by picture_verdict.
+    uint32_t *used;     ///< The occluders that took part, nearest first: places in the scene file.
+    size_t used_count;
+    bool used_known; ///< False for verdicts from a file, which does not tell.
+} picture_facts;
+
+/// Decides with the library (method single); with `vis_path` not NULL, only what is outside, and
+/// takes the rest from that file. On failure says why and returns false.
+bool picture_decide(const obs_scene *scene, uint32_t frame, const char *vis_path,
+                    picture_facts *facts);
+
+void picture_facts_free(picture_facts *facts);
+
+/// The colours of the verdicts, and of occluders.
+extern const canvas_color picture_colors[3];
+extern const canvas_color picture_occluder_color;
+extern const canvas_color picture_ink;
+extern const canvas_color picture_paper;
+
+/// Draws the map in a rectangle of the canvas, and tells in `caption` what part of the scene it is.
+/// Returns false when memory runs out.
+bool picture_draw_map(canvas *c, canvas_rect panel, const picture_facts *facts, char *caption,
+                      size_t size);
+
+/// Draws what the camera sees, hidden objects shining through. Returns false when memory runs out.
+bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *facts);
+
+#endif

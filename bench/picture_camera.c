@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three layers, each with its own depth: what is visible, the occluders in it, and over both,
+// striped, what is hidden. Lines are drawn where neighbouring pixels show different faces.
+#include "picture.h"
+
+#include "raster.h"
+
+#include <math.h>
+
+enum { STRIPE_PERIOD = 14, STRIPE_WIDTH = 4 };
+
+typedef struct layer {
+    raster raster;
+    const occ_box *(*box_of)(const obs_scene *scene, uint32_t number);
+    canvas_color color, line_color;
+    float fill, line; // how much of what is below they cover
+    bool striped;
+} layer;
+
+typedef struct layers {
+    canvas *c;
+    canvas_rect panel;
+    const picture_facts *facts;
+    layer visible, occluders, hidden;
+} layers;
+
+static const occ_box *object_box(const obs_scene *scene, uint32_t number)
+{
+    return &scene->objects[number];
+}
+
+static const occ_box *occluder_box(const obs_scene *scene, uint32_t number)
+{
+    return &scene->occluders[number].box;
+}
+
+// By which way a face looks: light from above, a little from one side.
+static canvas_color shade(canvas_color color, const occ_box *box, uint32_t face)
+{
+    const float *u = box->axis[(face / 2 + 1) % 3], *v = box->axis[(face / 2 + 2) % 3];
+    float n[3], square = 1e-30f;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        n[k] = u[i] * v[j] - u[j] * v[i];
+        square += n[k] * n[k];
+    }
+    // Signs do not matter: of two opposite faces only one is seen, and few look down.
+    float length = sqrtf(square), up = fabsf(n[1]) / length, aside = fabsf(n[0]) / length;
+    float dark = 0.78f + 0.16f * aside, pale = 0.42f * up * up;
+    const float rgb[3] = {(float)color.r, (float)color.g, (float)color.b};
+    uint8_t out[3];
+    for (int k = 0; k < 3; k++) {
+        float lit = rgb[k] * (dark + (1 - dark) * up);
+        out[k] = (uint8_t)(lit + (255 - lit) * pale);
+    }
+    return (canvas_color){out[0], out[1], out[2]};
+}
+
+// Whether a face ends at a pixel: two pixels wide, one on each side.
+static bool is_edge(const raster *r, int x, int y)
+{
+    size_t i = (size_t)y * (size_t)r->width + (size_t)x, row = (size_t)r->width;
+    uint32_t face = r->face[i];
+    return (x > 0 && face != r->face[i - 1]) || (x + 1 < r->width && face != r->face[i + 1]) ||
+           (y > 0 && face != r->face[i - row]) || (y + 1 < r->height && face != r->face[i + row]);
+}
+
+static void paint(layers *l, const layer *from, int x, int y)
+{
+    const raster *r = &from->raster;
+    size_t i = (size_t)y * (size_t)r->width + (size_t)x;
+    int cx = l->panel.x + x, cy = l->panel.y + y;
+    if (r->face[i] != RASTER_EMPTY) {
+        const occ_box *box = from->box_of(l->facts->scene, r->face[i] / 6);
+        bool stripe = !from->striped || (x + y) % STRIPE_PERIOD < STRIPE_WIDTH;
+        if (stripe) canvas_mix(l->c, cx, cy, shade(from->color, box, r->face[i] % 6), from->fill);
+    }
+    if (is_edge(r, x, y)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
+}
+
+// An occluder lies within its owner's box: there it shows through, elsewhere only in front of a
+// box, or in its face (1 - z falls with the distance, so the slack is a thousandth of it).
+static bool occluder_shows(const layers *l, size_t i)
+{
+    uint32_t face = l->occluders.raster.face[i], object = l->visible.raster.face[i];
+    if (face == RASTER_EMPTY) return false;
+    if (object == RASTER_EMPTY) return true;
+    uint32_t owner = l->facts->scene->occluders[face / 6].owner;
+    float front = l->visible.raster.depth[i];
+    return owner == object / 6 || l->occluders.raster.depth[i] <= front + 1e-3f * (1 - front);
+}
+
+static void compose(layers *l)
+{
+    for (int y = 0; y < l->panel.height; y++)
+        for (int x = 0; x < l->panel.width; x++) {
+            size_t i = (size_t)y * (size_t)l->panel.width + (size_t)x;
+            paint(l, &l->visible, x, y);
+            if (occluder_shows(l, i)) paint(l, &l->occluders, x, y);
+            paint(l, &l->hidden, x, y);
+        }
+}
+
+static void draw_boxes(layers *l)
+{
+    const obs_scene *scene = l->facts->scene;
+    raster_camera camera = raster_camera_of(l->facts->frame);
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        if (l->facts->verdicts[i] == PICTURE_OUTSIDE) continue;
+        bool hidden = l->facts->verdicts[i] == PICTURE_HIDDEN;
+        raster_box(hidden ? &l->hidden.raster : &l->visible.raster, &camera, &scene->objects[i], i);
+    }
+    for (size_t i = 0; i < l->facts->used_count; i++) {
+        uint32_t place = l->facts->used[i];
+        raster_box(&l->occluders.raster, &camera, &scene->occluders[place].box, place);
+    }
+}
+
+// Sky to horizon, so that empty pixels do not read as a surface.
+static void fill_background(canvas *c, canvas_rect panel)
+{
+    for (int y = 0; y < panel.height; y++) {
+        int tone = 236 + 16 * y / panel.height;
+        canvas_color color = {(uint8_t)(tone - 4), (uint8_t)(tone - 1), (uint8_t)tone};
+        canvas_fill(c, (canvas_rect){panel.x, panel.y + y, panel.width, 1}, color);
+    }
+}
+
+static canvas_color half_of(canvas_color color)
+{
+    return (canvas_color){(uint8_t)(color.r / 2), (uint8_t)(color.g / 2), (uint8_t)(color.b / 2)};
+}
+
+static layer make_layer(canvas_color color, bool shines_through)
+{
+    layer l = {.box_of = object_box, .color = color, .line_color = half_of(color)};
+    l.striped = shines_through;
+    l.fill = shines_through ? 0.8f : 1.0f;
+    l.line = shines_through ? 0.9f : 0.45f;
+    if (shines_through) l.line_color = color;
+    return l;
+}
+
+bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *facts)
+{
+    layers l = {.c = c, .panel = panel, .facts = facts};
+    l.visible = make_layer(picture_colors[PICTURE_VISIBLE], false);
+    l.occluders = make_layer(picture_occluder_color, false);
+    l.occluders.box_of = occluder_box;
+    l.occluders.fill = 0.75f;
+    l.hidden = make_layer(picture_colors[PICTURE_HIDDEN], true);
+    bool good = raster_create(&l.visible.raster, panel.width, panel.height) &&
+                raster_create(&l.occluders.raster, panel.width, panel.height) &&
+                raster_create(&l.hidden.raster, panel.width, panel.height);
+    if (good) {
+        fill_background(c, panel);
+        draw_boxes(&l);
+        compose(&l);
+    }
+    raster_free(&l.visible.raster);
+    raster_free(&l.occluders.raster);
+    raster_free(&l.hidden.raster);
+    return good;
+}
