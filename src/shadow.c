@@ -30,7 +30,6 @@ typedef struct face {
     int sign;         // 0: not seen
     double center[3]; // its middle
     double facing;    // an outward normal is facing * normal[k], facing = ±1
-    double margin;    // by how much the eye is in front of it, relative to the error bound
 } face;
 
 static void set_solid(solid *s, const occ_camera *camera, const occ_box *box)
@@ -63,33 +62,28 @@ static void see_face(const solid *s, const occ_camera *camera, int k, double vol
         error = 16.0 * EPS * occ_dot_magnitude(n, s->size);
     }
     f->sign = 0;
-    f->margin = error > 0.0 ? margin / error : 0.0;
     if (!(margin > error)) return;
     // Towards the eye is against `side`. Which of the two faces lies there depends on the sign of
-    // the volume n.a_k; of a flat box either will do, since each is a parallelogram of the box.
+    // the volume n.a_k.
     f->facing = side > 0.0 ? -1.0 : 1.0;
     f->sign = (volume < 0.0) != (side > 0.0) ? -1 : 1;
     for (int j = 0; j < 3; j++)
         f->center[j] = s->center[j] + (double)f->sign * s->axis[k][j];
 }
 
-// Fills in the faces of V. Where the box may be flat the orientation of its corners is in doubt,
-// and V is the one face that is seen best.
+// Fills in the faces of V and returns how many there are. A box may be so flat that the sign of its
+// volume is in doubt. Either will do for all three pairs: what V then shows of the box are the
+// faces on its far side, which tile the same outline, and whose planes the eye is in front of as
+// well.
 static int see_faces(const solid *s, const occ_camera *camera, face seen[3])
 {
     double volume = occ_dot(s->normal[0], s->axis[0]);
-    double doubt = 16.0 * EPS * occ_dot_magnitude(s->normal[0], s->axis[0]);
-    bool flat = !(fabs(volume) > doubt);
-    int count = 0, best = 0;
+    int count = 0;
     for (int k = 0; k < 3; k++) {
         see_face(s, camera, k, volume, &seen[k]);
         count += seen[k].sign != 0;
-        if (seen[k].margin > seen[best].margin) best = k;
     }
-    if (!flat || count <= 1) return count;
-    for (int k = 0; k < 3; k++)
-        if (k != best) seen[k].sign = 0;
-    return 1;
+    return count;
 }
 
 // Stores n.x + d > 0, where the components of n are off by at most `normal_error` and d by at most
