@@ -71,7 +71,6 @@ static void shape_axes(kit_random *random, world_shape shape, double axis[3][3])
                 axis[k][j] = aligned[k][j];
         if (shape == WORLD_SHEARED) axis[2][j] += 0.9 * axis[0][j] + 0.3 * axis[1][j];
         if (shape == WORLD_MIRRORED) axis[1][j] = -axis[1][j];
-        if (shape == WORLD_COPLANAR) axis[2][j] = 0.5 * axis[0][j] - 0.7 * axis[1][j];
         if (shape == WORLD_SHEET) axis[2][j] = 0.0;
         if (shape == WORLD_PLATE) axis[2][j] *= 1e-7;
         if (shape == WORLD_SEGMENT || shape == WORLD_POINT) axis[1][j] = axis[2][j] = 0.0;
@@ -83,10 +82,29 @@ static void shape_axes(kit_random *random, world_shape shape, double axis[3][3])
     }
 }
 
+// In so few bits that floats hold them, at a power of two; or with a volume that is not zero, but
+// far smaller than what rounds off in double.
+static double exactly_coplanar(kit_random *random, double axis[3][3], double size)
+{
+    bool almost = kit_below(random, 2);
+    for (int j = 0; j < 3; j++) {
+        for (int k = 0; k < 2; k++)
+            axis[k][j] = nearbyint(axis[k][j] * 1024.0) / 1024.0;
+        if (almost && j == 2) {
+            axis[1][2] = nearbyint(axis[0][2] * 256.0) / 512.0;
+            axis[0][2] = 1.5 * axis[1][2];
+        }
+        axis[2][j] = 0.5 * axis[0][j] - 0.75 * axis[1][j];
+    }
+    if (almost) axis[2][2] = world_scale(random, 1e-24, 1e-15) * (kit_below(random, 2) ? 1 : -1);
+    return exp2(floor(log2(size)));
+}
+
 occ_box world_box(kit_random *random, world_shape shape, const double center[3], double size)
 {
     double axis[3][3];
     shape_axes(random, shape, axis);
+    if (shape == WORLD_COPLANAR) size = exactly_coplanar(random, axis, size);
     occ_box box;
     uint32_t first = kit_below(random, 3); // which of the three is the odd one
     for (int j = 0; j < 3; j++) {

@@ -26,7 +26,7 @@ typedef enum world_shape {
     WORLD_SHEARED,
     WORLD_MIRRORED,
     WORLD_SHEET,    // one zero axis
-    WORLD_COPLANAR, // three axes in one plane
+    WORLD_COPLANAR, // three axes in one plane, or next to it
     WORLD_NEEDLE,   // 1 : 1e6
     WORLD_PLATE,    // nearly a sheet
     WORLD_SEGMENT,
