@@ -338,7 +338,7 @@ static uint32_t place_of(bool ties)
     const uint32_t *order = scene->occluder_order.data;
     const occ_box *boxes = occ_scene_occluder_boxes(scene);
     for (uint32_t i = 0; i + 1 < scene->occluder_order.count; i++) {
-        bool same = !memcmp(&boxes[order[i]], &boxes[order[i + 1]], sizeof *boxes);
+        bool same = kit_same_bits(&boxes[order[i]], &boxes[order[i + 1]], sizeof *boxes);
         if (same == ties) return i;
     }
     ck_abort_msg("no such neighbours");
