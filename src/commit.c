@@ -232,7 +232,12 @@ occ_result occ_scene_commit(occ_scene *scene)
     if (result) return occ_fail(&scene->hooks, result, "no memory to sort the objects");
     scene->objects_moved = scene->objects_reordered = false;
     result = commit_occluders(scene);
-    if (result) return occ_fail(&scene->hooks, result, "no memory to sort the occluders");
+    if (result) {
+        // The rows have changed all the same, and the next commit forgets which: who then finds two
+        // revisions more than it knows takes them all.
+        scene->revision++;
+        return occ_fail(&scene->hooks, result, "no memory to sort the occluders");
+    }
     scene->occluders_moved = scene->occluders_reordered = false;
     scene->revision++;
     return OCC_SUCCESS;
