@@ -29,11 +29,11 @@ static void fill_block(kit_random *random, const occ_relative_box *box, float si
 {
     for (uint32_t l = 0; l < OCC_SHADOW_LANES; l++) {
         uint32_t planes = 1 + kit_below(random, OCC_SHADOW_PLANES);
+        float plane[4] = {0};
         for (uint32_t p = 0; p < OCC_SHADOW_PLANES; p++) {
-            float plane[4];
-            edge_plane(random, box, size, plane);
+            if (p < planes) edge_plane(random, box, size, plane);
             for (int j = 0; j < 4; j++)
-                block->plane[p][j][l] = p < planes ? plane[j] : block->plane[p - 1][j][l];
+                block->plane[p][j][l] = plane[j];
         }
     }
 }
