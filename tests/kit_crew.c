@@ -76,7 +76,7 @@ uint32_t *kit_crew_cull(kit_crew *crew, const occ_scene *scene, const occ_camera
     return kit_mask(crew->view[0], NULL);
 }
 
-bool kit_same_words(const uint32_t *a, const uint32_t *b, const occ_scene *scene)
+bool kit_same_words(const uint32_t *a, const uint32_t *b, uint32_t slots)
 {
-    return !memcmp(a, b, OCC_MASK_WORDS(occ_scene_slot_count(scene)) * sizeof *a);
+    return !memcmp(a, b, OCC_MASK_WORDS(slots) * sizeof *a);
 }

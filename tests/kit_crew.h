@@ -29,7 +29,7 @@ void kit_same_answers(const occ_view *a, const occ_view *b, const char *who);
 uint32_t *kit_crew_cull(kit_crew *crew, const occ_scene *scene, const occ_camera_desc *camera,
                         const occ_cull_desc *knobs);
 
-// Whether two masks of one scene are the same.
-bool kit_same_words(const uint32_t *a, const uint32_t *b, const occ_scene *scene);
+// Whether two masks over so many slots are the same.
+bool kit_same_words(const uint32_t *a, const uint32_t *b, uint32_t slots);
 
 #endif

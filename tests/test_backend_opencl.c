@@ -3,6 +3,8 @@
 // oclgrind: yes
 // The OpenCL backend against the plain one, on the library's own queue and on the caller's. Scenes
 // are small: all of this runs a second time on oclgrind, which interprets the kernels.
+#define _POSIX_C_SOURCE 200809L
+
 #include <occlude/opencl.h>
 
 #include "kit_crew.h"
@@ -13,6 +15,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static occ_view *plain_view(void)
 {
@@ -140,7 +143,7 @@ START_TEST(changed_rows_travel_to_the_device)
         ck_assert_int_eq(occ_scene_commit(scene), OCC_SUCCESS);
         compare(plain, device, scene, &camera, NULL);
         uint32_t *after = kit_mask(device, NULL);
-        ck_assert_msg(!kit_same_words(before, after, scene), "the moves change no verdict");
+        ck_assert_msg(!kit_same_words(before, after, COUNT), "the moves change no verdict");
         free(before);
         free(after);
     }
@@ -231,6 +234,15 @@ static cl_uint context_holders(void)
     return count;
 }
 
+// A driver's own threads may let go of what they held a little later.
+static bool falls_to(cl_uint (*holders)(void), cl_uint expected)
+{
+    const struct timespec pause = {0, 10000000};
+    for (int i = 0; i < 500 && holders() != expected; i++)
+        (void)nanosleep(&pause, NULL);
+    return holders() == expected;
+}
+
 START_TEST(the_callers_queue_is_used_and_given_back)
 {
     cl_uint holders = queue_holders(), context = context_holders();
@@ -244,8 +256,8 @@ START_TEST(the_callers_queue_is_used_and_given_back)
         ck_assert_uint_gt(kit_stats(view).tested, 0);
     }
     occ_view_destroy(view);
-    ck_assert_uint_eq(queue_holders(), holders);
-    ck_assert_uint_eq(context_holders(), context);
+    ck_assert(falls_to(queue_holders, holders));
+    ck_assert(falls_to(context_holders, context));
 }
 END_TEST
 
@@ -290,7 +302,7 @@ START_TEST(a_device_or_a_context_of_the_caller_will_do)
         compare(us.plain, view, us.scene, &camera, NULL);
         ck_assert(i == 0 || context_holders() > holders);
         occ_view_destroy(view);
-        ck_assert_uint_eq(context_holders(), holders);
+        ck_assert(falls_to(context_holders, holders));
     }
 }
 END_TEST

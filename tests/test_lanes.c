@@ -67,8 +67,8 @@ START_TEST(every_instruction_set_finds_the_same_boxes_hidden)
         }
         held += expected;
         for (unsigned v = 0; v < lane_count; v++)
-            ck_assert_msg(lanes[v]->any_hides(blocks, count, &box) == expected,
-                          "%s in round %u, where C says %d", lanes[v]->name, i, expected);
+            if (lanes[v]->any_hides(blocks, count, &box) != expected)
+                ck_abort_msg("%s in round %u, where C says %d", lanes[v]->name, i, expected);
     }
     ck_assert_uint_gt(held, ROUNDS / 40);
     ck_assert_uint_lt(held, ROUNDS / 4 - ROUNDS / 40);
@@ -178,13 +178,10 @@ static void shade_plainly(const family *f, const occ_candidates *candidates, occ
     }
 }
 
-static void check_siblings(const occ_siblings *a, const occ_siblings *b, const char *name)
+static bool same_siblings(const occ_siblings *a, const occ_siblings *b)
 {
-    ck_assert_msg(a->outside == b->outside, "%s: outside %x, C says %x", name, a->outside,
-                  b->outside);
-    ck_assert_msg(a->hidden == b->hidden, "%s: hidden %x, C says %x", name, a->hidden, b->hidden);
-    ck_assert_msg(!memcmp(a->frustum_of, b->frustum_of, a->count * sizeof *a->frustum_of),
-                  "%s: other planes cut the children", name);
+    return a->outside == b->outside && a->hidden == b->hidden &&
+           !memcmp(a->frustum_of, b->frustum_of, a->count * sizeof *a->frustum_of);
 }
 
 START_TEST(every_instruction_set_decides_siblings_alike)
@@ -214,9 +211,9 @@ START_TEST(every_instruction_set_decides_siblings_alike)
             memset(touched, 0, sizeof touched);
             lanes[v]->cut(&siblings, &f.eye);
             lanes[v]->shade(&siblings, &f.eye, &candidates, touched);
-            check_siblings(&siblings, &expected, lanes[v]->name);
-            ck_assert_msg(!memcmp(touched, expected_touched, MOST), "%s in round %u",
-                          lanes[v]->name, i);
+            if (!same_siblings(&siblings, &expected) ||
+                memcmp(touched, expected_touched, MOST) != 0)
+                ck_abort_msg("%s in round %u", lanes[v]->name, i);
         }
     }
     ck_assert_uint_gt(outside, ROUNDS / 20);
@@ -308,8 +305,8 @@ START_TEST(every_instruction_set_decides_objects_alike)
         occ_verdict expected = test_plainly(&c, &range, &candidates);
         for (unsigned v = 0; v < lane_count; v++) {
             occ_verdict said = lanes[v]->test(&c.boxes, &range, &c.eye, &candidates);
-            ck_assert_msg(!memcmp(&said, &expected, sizeof said), "%s in round %u", lanes[v]->name,
-                          i);
+            if (memcmp(&said, &expected, sizeof said) != 0)
+                ck_abort_msg("%s in round %u", lanes[v]->name, i);
         }
         outside += (expected.outside[0] | expected.outside[1]) != 0;
         visible += (expected.visible[0] | expected.visible[1]) != 0;
