@@ -13,7 +13,7 @@ typedef struct tile_block {
     double nearest[BLOCK][BLOCK], second[BLOCK][BLOCK]; // second: of another owner
     double low[BLOCK][BLOCK], high[BLOCK][BLOCK];       // the ray's part in the frustum
     int64_t owner[BLOCK][BLOCK];                        // of the nearest
-    double farthest;                                    // of `second`
+    double farthest_nearest, farthest;                  // of `nearest` and of `second`
 } tile_block;
 
 typedef struct tile {
@@ -65,9 +65,11 @@ static void cross_row(const slabs *s, const double x[BLOCK], double y, double *r
 
 static void find_farthest(tile_block *block)
 {
-    block->farthest = -INFINITY;
+    block->farthest = block->farthest_nearest = -INFINITY;
     for (int i = 0; i < BLOCK * BLOCK; i++) {
+        double nearest = block->nearest[i / BLOCK][i % BLOCK];
         double second = block->second[i / BLOCK][i % BLOCK];
+        if (nearest > block->farthest_nearest) block->farthest_nearest = nearest;
         if (second > block->farthest) block->farthest = second;
     }
 }
@@ -132,11 +134,21 @@ static uint32_t cover_block(tile_block *block, const slabs *s, const truth_solid
     return 0;
 }
 
+// Whether everything from `depth` on is hidden from an object at all samples of the block.
+static bool hides_beyond(const tile_block *block, double depth, uint32_t object)
+{
+    const double slack = 1.0 + 1e-9; // a corner's depth and a ray's parameter differ by rounding
+    if (depth > block->farthest * slack) return true;
+    if (!(depth > block->farthest_nearest * slack)) return false;
+    for (int i = 0; i < BLOCK * BLOCK; i++)
+        if (block->owner[i / BLOCK][i % BLOCK] == (int64_t)object) return false;
+    return true;
+}
+
 static uint32_t look_block(tile_block *block, const slabs *s, const truth_solid *solid,
                            const double x[BLOCK], const double y[BLOCK])
 {
-    // A corner's depth and a ray's parameter differ by rounding.
-    if (solid->outline.depth > block->farthest * (1.0 + 1e-9)) return 0;
+    if (hides_beyond(block, solid->outline.depth, solid->owner)) return 0;
     uint32_t seen = 0;
     for (int j = 0; j < BLOCK; j++) {
         double enter[BLOCK], leave[BLOCK];
@@ -144,8 +156,9 @@ static uint32_t look_block(tile_block *block, const slabs *s, const truth_solid 
         for (int i = 0; i < BLOCK; i++) {
             bool is_own = block->owner[j][i] == (int64_t)solid->owner;
             double limit = is_own ? block->second[j][i] : block->nearest[j][i];
-            double at = fmax(enter[i], block->low[j][i]);
-            double last = fmin(leave[i], block->high[j][i]);
+            double low = block->low[j][i], high = block->high[j][i];
+            double at = enter[i] > low ? enter[i] : low;
+            double last = leave[i] < high ? leave[i] : high;
             seen += enter[i] <= leave[i] && at <= last && at <= limit * (1.0 + TRUTH_SURFACE);
         }
     }
