@@ -255,8 +255,8 @@ static bool find_route(const model *m, const voxel_grid *grid, double eye_height
                        path_report *report)
 {
     int above = (int)clamp(ceil(eye_height / 0.75 / grid->cell), 4, 1000);
-    const route_rule rules[] = {{10, 6, above}, {8, 4, above},    {10, 6, 0},  {6, 3, above},
-                                {8, 4, 0},      {10, -14, above}, {10, -14, 0}};
+    const route_rule rules[] = {{10, 6, above}, {8, 4, above},   {10, 6, 0}, {6, 3, above},
+                                {8, 4, 0},      {10, -4, above}, {10, -4, 0}};
     double enough = 0.4 * width(m) / grid->cell;
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
         if (!route_find(grid, &rules[i], r)) return false;

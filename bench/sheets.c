@@ -4,6 +4,7 @@
 #include "parallelogram.h"
 #include "progress.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 // More triangles than this on one edge, in one direction, are not paired with each other: a soup
@@ -33,8 +34,30 @@ static int compare_sides(const void *left, const void *right)
     return order ? order : compare_numbers(a->from, b->from);
 }
 
-// Larger first; then by triangle, so that the order is total.
-static int compare_sheets(const void *left, const void *right)
+// What a sheet is worth: its area, less as it is more slanted. Of two ways to pair the triangles of
+// a row of rectangles it is the one that leaves none over, and square sheets hide more.
+static double worth(const sheet *s)
+{
+    double length[2];
+    for (int n = 0; n < 2; n++) {
+        const float *axis = s->box.axis[n];
+        length[n] = sqrt((double)axis[0] * (double)axis[0] + (double)axis[1] * (double)axis[1] +
+                         (double)axis[2] * (double)axis[2]);
+    }
+    return s->area * s->area / (4 * length[0] * length[1]);
+}
+
+// Worthier first; then by triangle, so that the order is total.
+static int compare_worth(const void *left, const void *right)
+{
+    const sheet *a = left, *b = right;
+    if (a->worth != b->worth) return a->worth > b->worth ? -1 : 1;
+    int order = compare_numbers(a->triangles[0], b->triangles[0]);
+    return order ? order : compare_numbers(a->triangles[1], b->triangles[1]);
+}
+
+// Larger first.
+static int compare_area(const void *left, const void *right)
 {
     const sheet *a = left, *b = right;
     if (a->area != b->area) return a->area > b->area ? -1 : 1;
@@ -71,6 +94,7 @@ static bool make_sheet(const model *m, const side *forward, const side *backward
     out->area = quad_fit_parallelogram(quad, &out->box);
     out->triangles[0] = forward->triangle;
     out->triangles[1] = backward->triangle;
+    if (out->area > 0) out->worth = worth(out);
     return out->area > 0;
 }
 
@@ -110,12 +134,12 @@ static bool list_candidates(const model *m, const side *sides, size_t count, she
     return true;
 }
 
-// Keeps the largest sheets that share no triangle.
+// Keeps the worthiest sheets that share no triangle, larger ones first.
 static bool choose(const model *m, sheet_list *list)
 {
     bool *taken = calloc((size_t)m->triangle_count + 1, sizeof *taken);
     if (!taken) return false;
-    if (list->count) qsort(list->at, list->count, sizeof *list->at, compare_sheets);
+    if (list->count) qsort(list->at, list->count, sizeof *list->at, compare_worth);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < list->count; i++) {
         sheet s = list->at[i];
@@ -126,6 +150,7 @@ static bool choose(const model *m, sheet_list *list)
     }
     list->count = kept;
     free(taken);
+    if (kept) qsort(list->at, kept, sizeof *list->at, compare_area);
     return true;
 }
 

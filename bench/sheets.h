@@ -16,6 +16,7 @@ typedef struct sheet {
     occ_box box;
     uint32_t triangles[2];
     double area;
+    double worth; ///< What decided which of several sheets was kept.
 } sheet;
 
 /// No triangle is in two sheets. All zero is empty; sheets_free() it when done.
@@ -26,8 +27,8 @@ typedef struct sheet_list {
     double area;             ///< Of all the sheets.
 } sheet_list;
 
-/// Finds the sheets of a model, larger ones first where triangles could go into several. Returns
-/// false when memory runs out.
+/// Finds the sheets of a model, in order of area, larger first. Where a triangle could go into
+/// several, the larger and squarer one is kept. Returns false when memory runs out.
 bool sheets_find(const model *m, sheet_list *out);
 
 /// Frees what a list holds and zeroes it.

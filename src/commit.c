@@ -231,9 +231,9 @@ occ_result occ_scene_commit(occ_scene *scene)
     occ_result result = commit_objects(scene);
     if (result) return occ_fail(&scene->hooks, result, "no memory to sort the objects");
     scene->objects_moved = scene->objects_reordered = false;
+    scene->revision++; // even if the occluders fail: `changed` speaks of this step from here on
     result = commit_occluders(scene);
     if (result) return occ_fail(&scene->hooks, result, "no memory to sort the occluders");
     scene->occluders_moved = scene->occluders_reordered = false;
-    scene->revision++;
     return OCC_SUCCESS;
 }

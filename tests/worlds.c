@@ -191,6 +191,30 @@ occ_camera_desc world_camera(const float eye[3], const float target[3], const wo
     return camera;
 }
 
+occ_camera_desc world_skewed_camera(kit_random *random, double reach)
+{
+    occ_camera_desc desc = {.depth = (occ_depth)kit_below(random, 3)};
+    double eye[3], row[4][3];
+    world_direction(random, eye);
+    double nearness = kit_below(random, 2) ? world_scale(random, 1e-9, 1) : 1.0;
+    uint32_t from = kit_below(random, 4), to = (from + 1 + kit_below(random, 3)) % 4;
+    for (int r = 0; r < 4; r++)
+        world_direction(random, row[r]);
+    for (int r = 0; r < 4; r++) {
+        double weight = world_scale(random, 1e-3, 1e3), d = 0.0;
+        for (int j = 0; j < 3; j++) {
+            if (r == (int)to) row[r][j] = row[from][j] + nearness * row[r][j];
+            desc.view_projection[4 * j + r] = (float)(weight * row[r][j]);
+            d -= (double)desc.view_projection[4 * j + r] * reach * eye[j];
+        }
+        desc.view_projection[12 + r] = (float)d + (r == 2 ? (float)weight * 0.1f : 0.0f);
+    }
+    bool begins_at_eye = kit_below(random, 2) == 0; // else the near plane spares no box close by
+    for (int c = 0; c < 4 && begins_at_eye; c++)
+        desc.view_projection[4 * c + 2] = 0.5f * desc.view_projection[4 * c + 3];
+    return desc;
+}
+
 // --- scenes --------------------------------------------------------------------------------------
 
 occ_scene *world_scene(const occ_box *objects, uint32_t object_count,

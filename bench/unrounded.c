@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exact.h"
+#include "unrounded.h"
 
 #include <math.h>
 
-static void trim(exact *a)
+static void trim(unrounded *a)
 {
     while (a->used && a->limb[a->used - 1] == 0)
         a->used--;
     if (a->used == 0) a->sign = 0;
 }
 
-exact exact_from(float value)
+unrounded unrounded_from(float value)
 {
-    exact out = {0};
+    unrounded out = {0};
     if (value == 0.0f) return out;
     int exponent;
     float fraction = frexpf(fabsf(value), &exponent);
@@ -33,7 +33,7 @@ exact exact_from(float value)
     return out;
 }
 
-int exact_compare_magnitude(const exact *a, const exact *b)
+int unrounded_compare_magnitude(const unrounded *a, const unrounded *b)
 {
     if (a->used != b->used) return a->used < b->used ? -1 : 1;
     for (uint32_t i = a->used; i-- > 0;)
@@ -41,9 +41,9 @@ int exact_compare_magnitude(const exact *a, const exact *b)
     return 0;
 }
 
-static exact add_magnitudes(const exact *large, const exact *small)
+static unrounded add_magnitudes(const unrounded *large, const unrounded *small)
 {
-    exact out = {.sign = large->sign, .used = large->used};
+    unrounded out = {.sign = large->sign, .used = large->used};
     uint64_t carry = 0;
     for (uint32_t i = 0; i < large->used; i++) {
         carry += (uint64_t)large->limb[i] + (i < small->used ? small->limb[i] : 0);
@@ -54,9 +54,9 @@ static exact add_magnitudes(const exact *large, const exact *small)
     return out;
 }
 
-static exact subtract_magnitudes(const exact *large, const exact *small)
+static unrounded subtract_magnitudes(const unrounded *large, const unrounded *small)
 {
-    exact out = {.sign = large->sign, .used = large->used};
+    unrounded out = {.sign = large->sign, .used = large->used};
     uint64_t borrow = 0;
     for (uint32_t i = 0; i < large->used; i++) {
         uint64_t take = borrow + (i < small->used ? small->limb[i] : 0);
@@ -67,12 +67,12 @@ static exact subtract_magnitudes(const exact *large, const exact *small)
     return out;
 }
 
-exact exact_add(const exact *a, const exact *b)
+unrounded unrounded_add(const unrounded *a, const unrounded *b)
 {
     if (a->sign == 0) return *b;
     if (b->sign == 0) return *a;
-    const exact *large = a, *small = b;
-    if (exact_compare_magnitude(a, b) < 0) {
+    const unrounded *large = a, *small = b;
+    if (unrounded_compare_magnitude(a, b) < 0) {
         large = b;
         small = a;
     }
@@ -80,16 +80,16 @@ exact exact_add(const exact *a, const exact *b)
     return subtract_magnitudes(large, small);
 }
 
-exact exact_subtract(const exact *a, const exact *b)
+unrounded unrounded_subtract(const unrounded *a, const unrounded *b)
 {
-    exact minus = *b;
+    unrounded minus = *b;
     minus.sign = -minus.sign;
-    return exact_add(a, &minus);
+    return unrounded_add(a, &minus);
 }
 
-exact exact_multiply(const exact *a, const exact *b)
+unrounded unrounded_multiply(const unrounded *a, const unrounded *b)
 {
-    exact out = {0};
+    unrounded out = {0};
     if (a->sign == 0 || b->sign == 0) return out;
     out.sign = a->sign * b->sign;
     out.used = a->used + b->used;
@@ -107,41 +107,42 @@ exact exact_multiply(const exact *a, const exact *b)
     return out;
 }
 
-exact_vector exact_vector_from(const float v[3])
+unrounded_vector unrounded_vector_from(const float v[3])
 {
-    return (exact_vector){{exact_from(v[0]), exact_from(v[1]), exact_from(v[2])}};
+    return (unrounded_vector){{unrounded_from(v[0]), unrounded_from(v[1]), unrounded_from(v[2])}};
 }
 
-exact_vector exact_vector_add(const exact_vector *a, const exact_vector *b)
+unrounded_vector unrounded_vector_add(const unrounded_vector *a, const unrounded_vector *b)
 {
-    exact_vector out;
+    unrounded_vector out;
     for (int k = 0; k < 3; k++)
-        out.at[k] = exact_add(&a->at[k], &b->at[k]);
+        out.at[k] = unrounded_add(&a->at[k], &b->at[k]);
     return out;
 }
 
-exact_vector exact_vector_subtract(const exact_vector *a, const exact_vector *b)
+unrounded_vector unrounded_vector_subtract(const unrounded_vector *a, const unrounded_vector *b)
 {
-    exact_vector out;
+    unrounded_vector out;
     for (int k = 0; k < 3; k++)
-        out.at[k] = exact_subtract(&a->at[k], &b->at[k]);
+        out.at[k] = unrounded_subtract(&a->at[k], &b->at[k]);
     return out;
 }
 
-exact exact_minor(const exact_vector *a, const exact_vector *b, int i, int j)
+unrounded unrounded_minor(const unrounded_vector *a, const unrounded_vector *b, int i, int j)
 {
-    exact left = exact_multiply(&a->at[i], &b->at[j]);
-    exact right = exact_multiply(&a->at[j], &b->at[i]);
-    return exact_subtract(&left, &right);
+    unrounded left = unrounded_multiply(&a->at[i], &b->at[j]);
+    unrounded right = unrounded_multiply(&a->at[j], &b->at[i]);
+    return unrounded_subtract(&left, &right);
 }
 
-exact exact_determinant(const exact_vector *a, const exact_vector *b, const exact_vector *c)
+unrounded unrounded_determinant(const unrounded_vector *a, const unrounded_vector *b,
+                                const unrounded_vector *c)
 {
-    exact sum = {0};
+    unrounded sum = {0};
     for (int k = 0; k < 3; k++) {
-        exact minor = exact_minor(b, c, (k + 1) % 3, (k + 2) % 3);
-        exact term = exact_multiply(&a->at[k], &minor);
-        sum = exact_add(&sum, &term);
+        unrounded minor = unrounded_minor(b, c, (k + 1) % 3, (k + 2) % 3);
+        unrounded term = unrounded_multiply(&a->at[k], &minor);
+        sum = unrounded_add(&sum, &term);
     }
     return sum;
 }
