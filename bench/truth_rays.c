@@ -10,7 +10,7 @@ enum { STRATA = 4 }; // squared: rays spread over a triangle
 typedef struct shooter {
     const truth_view *view;
     const truth_tree *occluders;
-    uint32_t object, *hint, arrived;
+    uint32_t object, hint, arrived;
     uint64_t state;
 } shooter;
 
@@ -42,8 +42,8 @@ static truth_query query_of(const shooter *s, const double point[3])
 static void shoot(shooter *s, const double point[3])
 {
     truth_query query = query_of(s, point);
-    if (*s->hint != TRUTH_NONE) {
-        const truth_solid *last = &s->occluders->solids[*s->hint];
+    if (s->hint != TRUTH_NONE) {
+        const truth_solid *last = &s->occluders->solids[s->hint];
         if (last->owner != s->object &&
             truth_enter(last, query.origin, query.direction, query.low, query.high) < INFINITY)
             return;
@@ -52,14 +52,14 @@ static void shoot(shooter *s, const double point[3])
     if (found == TRUTH_NONE)
         s->arrived++;
     else
-        *s->hint = found;
+        s->hint = found;
 }
 
 static void shoot_triangle(shooter *s, const double *a, const double *b, const double *c)
 {
     for (int i = 0; i < STRATA * STRATA; i++) {
-        double u = (i % STRATA + next_random(s)) / STRATA;
-        double v = ((double)(i / STRATA) + next_random(s)) / STRATA;
+        int column = i % STRATA, row = i / STRATA;
+        double u = (column + next_random(s)) / STRATA, v = (row + next_random(s)) / STRATA;
         if (u + v > 1.0) {
             u = 1.0 - u;
             v = 1.0 - v;
@@ -88,7 +88,7 @@ static void shoot_polygon(shooter *s, const truth_polygon *polygon)
 uint16_t truth_count_rays(const truth_view *view, const truth_tree *occluders, const occ_box *box,
                           uint32_t object, uint32_t *hint)
 {
-    shooter s = {.view = view, .occluders = occluders, .object = object, .hint = hint};
+    shooter s = {.view = view, .occluders = occluders, .object = object, .hint = *hint};
     s.state = object;
     for (int face = 0; face < 6; face++) {
         if (!truth_face_is_seen(view, box, face)) continue;
@@ -96,5 +96,6 @@ uint16_t truth_count_rays(const truth_view *view, const truth_tree *occluders, c
         truth_face(view, box, face, &polygon);
         shoot_polygon(&s, &polygon);
     }
+    *hint = s.hint;
     return (uint16_t)(s.arrived < UINT16_MAX ? s.arrived : UINT16_MAX);
 }
