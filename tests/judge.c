@@ -35,121 +35,6 @@ void judge_set_occluders(judge *j, const occ_box *boxes, const int *owners, size
     }
 }
 
-// --- sheets --------------------------------------------------------------------------------------
-
-static void face_sheet(judge *j, const judge_body *body, int face, int end)
-{
-    judge_sheet *sheet = &j->sheet;
-    *sheet = (judge_sheet){.body = body, .clip = -1, .face = face, .end = end, .reach = 1.0};
-    for (int i = 0; i < 3; i++) {
-        sheet->o[i] = body->center[i];
-        if (end > 0) sheet->o[i] = num_add(sheet->o[i], body->axis[face][i]);
-        if (end < 0) sheet->o[i] = num_sub(sheet->o[i], body->axis[face][i]);
-        sheet->u[i] = body->axis[(face + 1) % 3][i];
-        sheet->v[i] = body->axis[(face + 2) % 3][i];
-    }
-    sheet->o[3] = num_of(1.0);
-    num normal[3];
-    num_cross(normal, sheet->u, sheet->v);
-    sheet->area = hypot(hypot(normal[0].v, normal[1].v), normal[2].v);
-}
-
-// A segment or a point: see exact_thread(). Parallel axes have components of equal or of opposite
-// signs.
-static void thread_sheet(judge *j, const judge_body *body)
-{
-    judge_sheet *sheet = &j->sheet;
-    const num *main = body->axis[body->shape.pick];
-    *sheet = (judge_sheet){.body = body, .clip = -1, .reach = 1.0, .area = 1.0};
-    for (int k = 0; k < 3; k++) {
-        bool against = false;
-        for (int i = 0; i < 3; i++)
-            against = against || (main[i].v < 0.0 && body->axis[k][i].v > 0.0) ||
-                      (main[i].v > 0.0 && body->axis[k][i].v < 0.0);
-        for (int i = 0; i < 3; i++) {
-            num add = against ? num_neg(body->axis[k][i]) : body->axis[k][i];
-            sheet->u[i] = num_add(sheet->u[i], add);
-        }
-    }
-    for (int i = 0; i < 3; i++)
-        sheet->o[i] = body->center[i];
-    sheet->o[3] = num_of(1.0);
-}
-
-// Where a clip plane n.x + d = 0 cuts the body, with n_r the largest component of n: s and t are
-// the two other coordinates, and (x_r, x_p, x_q, w) = (-d - n_p s - n_q t, n_r s, n_r t, n_r).
-// False if the plane has no normal.
-static bool num_section(judge *j, const judge_body *body, int clip)
-{
-    const num *plane = j->clip[clip];
-    int r = 0;
-    double far_away = 1.0;
-    for (int i = 0; i < 3; i++) {
-        double reach = fabs(body->center[i].v) + body->center[i].e;
-        if (fabs(plane[i].v) > fabs(plane[r].v)) r = i;
-        for (int k = 0; k < 3; k++)
-            reach += fabs(body->axis[k][i].v);
-        far_away = fmax(far_away, reach);
-    }
-    if (num_sign(plane[r]) == 0 || num_sign(plane[r]) == NUM_UNSURE) return false;
-    judge_sheet *sheet = &j->sheet;
-    *sheet = (judge_sheet){.body = body, .clip = clip, .face = r};
-    sheet->reach = ldexp(1.0, ilogb(far_away) + 2);
-    int p = (r + 1) % 3, q = (r + 2) % 3;
-    bool same = plane[r].v > 0.0;
-    sheet->o[3] = sheet->u[p] = sheet->v[q] = num_abs(plane[r]);
-    sheet->o[r] = same ? num_neg(plane[3]) : plane[3];
-    sheet->u[r] = same ? num_neg(plane[p]) : plane[p];
-    sheet->v[r] = same ? num_neg(plane[q]) : plane[q];
-    sheet->area = hypot(hypot(plane[0].v, plane[1].v), plane[2].v) / fabs(plane[r].v);
-    return true;
-}
-
-// --- clip planes ---------------------------------------------------------------------------------
-
-static int sign_at_center(judge *j, const judge_body *body, int clip)
-{
-    int sign = judge_ask(j, num_add(num_dot(j->clip[clip], body->center, 3), j->clip[clip][3]));
-    if (sign != NUM_UNSURE) return sign;
-    judge_load(j, &body->box);
-    exact_dot(j->t[0], j->exact_clip[clip], j->c);
-    mpz_add(j->t[0], j->t[0], j->exact_clip[clip][3]);
-    return mpz_sgn(j->t[0]);
-}
-
-// Keeps what is inside of a line. False if that is nothing. A plane in which the whole sheet lies
-// leaves a solid's face only if the solid is on its inner side.
-static bool keep_inside(judge *j, judge_origin origin, int index, judge_piece *piece)
-{
-    signed char signs[JUDGE_EDGES];
-    int counts[2], line = judge_add_line(j, origin, NULL, index);
-    judge_signs(j, line, piece, signs, counts);
-    if (counts[0] == 0 && counts[1] == 0) {
-        const judge_body *body = j->sheet.body;
-        int clip = origin == JUDGE_CLIP ? index : j->sheet.clip;
-        return body->shape.rank < 3 || sign_at_center(j, body, clip) >= 0;
-    }
-    if (counts[1] == 0) return true;
-    if (counts[0] == 0) return false;
-    judge_piece part;
-    judge_cut(j, line, piece, signs, 1, &part);
-    *piece = part;
-    return true;
-}
-
-// The sheet in hand as a piece, cut by clip planes and, where it is a section, by the body's sides.
-// False if nothing is left.
-static bool cut_sheet(judge *j, judge_piece *piece)
-{
-    j->line_count = 0;
-    judge_start_piece(j, piece);
-    for (int i = 0; j->sheet.clip >= 0 && i < j->sheet.body->sides; i++)
-        if (!keep_inside(j, JUDGE_SIDE, i, piece)) return false;
-    for (int p = 0; j->has_clips && p < JUDGE_CLIPS; p++)
-        if (p != j->sheet.clip && !keep_inside(j, JUDGE_CLIP, p, piece)) return false;
-    return true;
-}
-
 // --- shadows -------------------------------------------------------------------------------------
 
 // Drops the occluders whose shadow surely misses the object.
@@ -281,7 +166,7 @@ static bool is_seen(judge *j, const judge_piece *piece, size_t next)
 static bool is_sheet_seen(judge *j)
 {
     judge_piece piece;
-    if (!cut_sheet(j, &piece)) return false;
+    if (!judge_cut_sheet(j, &piece)) return false;
     j->whole_area += judge_piece_area(&piece) * j->sheet.area;
     for (size_t i = 0; i < j->candidate_count; i++)
         j->candidates[i].line = -1;
@@ -291,7 +176,7 @@ static bool is_sheet_seen(judge *j)
 static bool has_area(judge *j)
 {
     judge_piece piece;
-    return cut_sheet(j, &piece);
+    return judge_cut_sheet(j, &piece);
 }
 
 // Whether the axes beside `face` span anything.
@@ -311,7 +196,7 @@ static bool each_flat_face(judge *j, bool (*holds)(judge *))
         for (int i = 0; i < 3; i++)
             zero = zero && body->axis[k][i].v == 0.0;
         for (int end = zero ? 0 : -1; end < 2; end += 2) {
-            face_sheet(j, body, k, end);
+            judge_face_sheet(j, body, k, end);
             if (holds(j)) return true;
         }
     }
@@ -346,12 +231,12 @@ static bool each_facet(judge *j, bool all, bool (*holds)(judge *), int *facing)
     for (int i = 0; i < body->sides; i++) { // side 2 k has its face where m.x is least
         if (!all && body->sign[i] >= 0) continue;
         ++*facing;
-        face_sheet(j, body, i / 2, i % 2 ? turn : -turn);
+        judge_face_sheet(j, body, i / 2, i % 2 ? turn : -turn);
         if (holds(j)) return true;
     }
     for (int p = 0; j->has_clips && p < JUDGE_CLIPS; p++) {
         if (!all && clip_at_eye(j, p) >= 0) continue;
-        if (!num_section(j, body, p)) continue;
+        if (!judge_section_sheet(j, body, p)) continue;
         ++*facing;
         if (holds(j)) return true;
     }
@@ -363,14 +248,14 @@ bool judge_has_inside(judge *j)
     int facing;
     if (j->body.shape.rank == 3) return each_facet(j, true, has_area, &facing);
     if (j->body.shape.rank == 2) return each_flat_face(j, has_area);
-    thread_sheet(j, &j->body);
+    judge_thread_sheet(j, &j->body);
     return has_area(j);
 }
 
 static bool judge_body_in_hand(judge *j)
 {
     if (j->body.shape.rank < 2) {
-        thread_sheet(j, &j->body);
+        judge_thread_sheet(j, &j->body);
         return is_sheet_seen(j);
     }
     if (j->body.shape.rank == 2) return each_flat_face(j, is_sheet_seen);

@@ -49,7 +49,7 @@ typedef struct judge_shadow {
     bool empty;
     int halves, clip[2]; // beyond the sides: which clip planes
     int count;
-    signed char one[JUDGE_PLANES], two[JUDGE_PLANES];
+    int one[JUDGE_PLANES], two[JUDGE_PLANES];
     num plane[JUDGE_PLANES][4];
     exact4 *exact;
     long version; // of the unit in which `exact` is
@@ -160,6 +160,17 @@ bool judge_holds_eye(const judge *j, const judge_body *body);
 void judge_make_shadow(judge *j, judge_shadow *shadow, const occ_box *box, bool clipped);
 void judge_exact_shadow(judge *j, judge_shadow *shadow);
 void judge_free_shadow(judge_shadow *shadow);
+
+// --- judge_sheet.c -------------------------------------------------------------------------------
+
+// Each makes j->sheet. A section is false if the plane has no normal.
+void judge_face_sheet(judge *j, const judge_body *body, int face, int end);
+void judge_thread_sheet(judge *j, const judge_body *body);
+bool judge_section_sheet(judge *j, const judge_body *body, int clip);
+void judge_exact_sheet(judge *j);
+// The sheet in hand as a piece, cut by clip planes and, where it is a section, by the body's sides.
+// False if nothing is left.
+bool judge_cut_sheet(judge *j, judge_piece *piece);
 
 // --- judge_piece.c -------------------------------------------------------------------------------
 

@@ -8,77 +8,6 @@
 
 #include <stdlib.h>
 
-// --- sheets --------------------------------------------------------------------------------------
-
-static void exact_face(judge *j)
-{
-    int face = j->sheet.face;
-    judge_load(j, &j->sheet.body->box);
-    for (int i = 0; i < 3; i++) {
-        mpz_set(j->xo[i], j->c[i]);
-        if (j->sheet.end > 0) mpz_add(j->xo[i], j->xo[i], j->a[face][i]);
-        if (j->sheet.end < 0) mpz_sub(j->xo[i], j->xo[i], j->a[face][i]);
-        mpz_set(j->xu[i], j->a[(face + 1) % 3][i]);
-        mpz_set(j->xv[i], j->a[(face + 2) % 3][i]);
-    }
-    mpz_set_ui(j->xo[3], 1);
-    mpz_set_ui(j->xu[3], 0);
-    mpz_set_ui(j->xv[3], 0);
-}
-
-// A segment is the sheet c + s (the sum of its axes, turned alike) + t 0, and a point c + s 0 + t
-// 0: no line ever crosses them along t.
-static void exact_thread(judge *j)
-{
-    judge_load(j, &j->sheet.body->box);
-    for (int i = 0; i < 3; i++) {
-        mpz_set(j->xo[i], j->c[i]);
-        mpz_set_ui(j->xu[i], 0);
-        mpz_set_ui(j->xv[i], 0);
-    }
-    int pick = j->sheet.body->shape.pick;
-    for (int k = 0; k < 3; k++) {
-        exact_dot(j->t[0], j->a[pick], j->a[k]);
-        for (int i = 0; i < 3; i++)
-            (mpz_sgn(j->t[0]) < 0 ? mpz_sub : mpz_add)(j->xu[i], j->xu[i], j->a[k][i]);
-    }
-    mpz_set_ui(j->xo[3], 1);
-    mpz_set_ui(j->xu[3], 0);
-    mpz_set_ui(j->xv[3], 0);
-}
-
-// s and t are two coordinates, and the plane gives the third: see num_section().
-static void exact_section(judge *j)
-{
-    mpz_t *plane = j->exact_clip[j->sheet.clip];
-    int r = j->sheet.face, p = (r + 1) % 3, q = (r + 2) % 3;
-    for (int i = 0; i < 4; i++) {
-        mpz_set_ui(j->xo[i], 0);
-        mpz_set_ui(j->xu[i], 0);
-        mpz_set_ui(j->xv[i], 0);
-    }
-    mpz_abs(j->xo[3], plane[r]);
-    mpz_set(j->xu[p], j->xo[3]);
-    mpz_set(j->xv[q], j->xo[3]);
-    bool same = mpz_sgn(plane[r]) > 0;
-    (same ? mpz_neg : mpz_set)(j->xo[r], plane[3]);
-    (same ? mpz_neg : mpz_set)(j->xu[r], plane[p]);
-    (same ? mpz_neg : mpz_set)(j->xv[r], plane[q]);
-}
-
-static void exact_sheet(judge *j)
-{
-    if (j->sheet.exact) return;
-    j->sheet.exact = true;
-    if (j->sheet.clip >= 0) {
-        exact_section(j);
-    } else if (j->sheet.body->shape.rank < 2) {
-        exact_thread(j);
-    } else {
-        exact_face(j);
-    }
-}
-
 // --- lines ---------------------------------------------------------------------------------------
 
 static judge_line *next_line(judge *j)
@@ -143,7 +72,7 @@ static mpz_t *exact_line(judge *j, int number)
         if (j->sheet.clip >= 0) mpz_mul(line->x[2], line->x[2], j->unit);
         return line->x;
     }
-    exact_sheet(j);
+    judge_exact_sheet(j);
     mpz_t *plane = NULL;
     if (line->origin == JUDGE_CLIP) plane = j->exact_clip[line->index];
     if (line->origin == JUDGE_SIDE) {

@@ -13,8 +13,8 @@
 static void add_plane(judge_shadow *shadow, int one, int two)
 {
     if (shadow->count == JUDGE_PLANES) abort();
-    shadow->one[shadow->count] = (signed char)one;
-    shadow->two[shadow->count++] = (signed char)two;
+    shadow->one[shadow->count] = one;
+    shadow->two[shadow->count++] = two;
 }
 
 // Half-space i is side i, or a clip plane.
