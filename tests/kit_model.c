@@ -60,8 +60,10 @@ static occ_box moved(kit_random *random, const occ_box *box)
 {
     if (!kit_below(random, 3)) return any_box(random);
     occ_box near = *box;
-    for (int j = 0; j < 3; j++)
+    for (int j = 0; j < 3; j++) {
         near.center[j] += kit_between(random, -0.001f, 0.001f);
+        near.axis[j][j] *= kit_between(random, 0.999f, 1.001f);
+    }
     return near;
 }
 
