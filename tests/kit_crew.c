@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kit_crew.h"
 
+#include "box.h"
+#include "scene_data.h"
+
 #include <check.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,4 +82,62 @@ uint32_t *kit_crew_cull(kit_crew *crew, const occ_scene *scene, const occ_camera
 bool kit_same_words(const uint32_t *a, const uint32_t *b, uint32_t slots)
 {
     return !memcmp(a, b, OCC_MASK_WORDS(slots) * sizeof *a);
+}
+
+// --- moves ---------------------------------------------------------------------------------------
+
+static occ_box box_of(const occ_scene *scene, occ_object object)
+{
+    occ_box box;
+    ck_assert_int_eq(occ_scene_box(scene, object, &box), OCC_SUCCESS);
+    return box;
+}
+
+static uint64_t key_of(const occ_scene *scene, const occ_box *box)
+{
+    float min[3], max[3];
+    occ_box_bounds(box, min, max);
+    return occ_octree_key(&scene->object_tree.root, min, max);
+}
+
+typedef struct extent {
+    float low[3], high[3];
+} extent;
+
+static extent extent_of(const occ_scene *scene, const occ_object *objects, uint32_t count)
+{
+    extent e = {{0}, {0}};
+    for (uint32_t i = 0; i < count; i++) {
+        occ_box box = box_of(scene, objects[i]);
+        for (int j = 0; j < 3; j++) {
+            if (!i || box.center[j] < e.low[j]) e.low[j] = box.center[j];
+            if (!i || box.center[j] > e.high[j]) e.high[j] = box.center[j];
+        }
+    }
+    return e;
+}
+
+// The outermost objects stay where they are, and with them the octree's root.
+static bool is_inner(const extent *e, const occ_box *box)
+{
+    for (int j = 0; j < 3; j++)
+        if (box->center[j] <= e->low[j] || box->center[j] >= e->high[j]) return false;
+    return true;
+}
+
+uint32_t kit_move_within_cells(occ_scene *scene, const occ_object *objects, uint32_t count,
+                               kit_random *random)
+{
+    extent all = extent_of(scene, objects, count);
+    uint32_t moved = 0;
+    for (uint32_t i = 0; i < count; i += 3) {
+        occ_box old = box_of(scene, objects[i]), box = old;
+        for (int j = 0; j < 3; j++)
+            box.center[j] += kit_between(random, -8, 8);
+        if (!is_inner(&all, &old) || !is_inner(&all, &box)) continue;
+        if (key_of(scene, &box) != key_of(scene, &old)) continue;
+        ck_assert_int_eq(occ_scene_move(scene, objects[i], &box), OCC_SUCCESS);
+        moved++;
+    }
+    return moved;
 }

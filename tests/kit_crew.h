@@ -32,4 +32,9 @@ uint32_t *kit_crew_cull(kit_crew *crew, const occ_scene *scene, const occ_camera
 // Whether two masks over so many slots are the same.
 bool kit_same_words(const uint32_t *a, const uint32_t *b, uint32_t slots);
 
+// Moves many of the objects, each within its cell of the octree: no row changes place, and only
+// those of the moved objects change. Returns how many were moved.
+uint32_t kit_move_within_cells(occ_scene *scene, const occ_object *objects, uint32_t count,
+                               kit_random *random);
+
 #endif

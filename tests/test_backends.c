@@ -81,6 +81,40 @@ START_TEST(every_backend_and_thread_count_gives_the_same_mask_on_every_run)
 }
 END_TEST
 
+// --- owners
+// ---------------------------------------------------------------------------------------
+
+// Each object stands behind a wall of its own: it is the one object that the wall must not hide.
+START_TEST(no_backend_lets_an_object_be_hidden_by_what_it_owns)
+{
+    enum { PLACES = 200 };
+    occ_scene *scene = NULL;
+    ck_assert_int_eq(occ_scene_create(&small_leaves, &scene), OCC_SUCCESS);
+    occ_object owner[PLACES], other[PLACES];
+    for (int i = 0; i < PLACES; i++) {
+        float x = (float)(i % 20 - 10), y = (float)(i / 20 - 5);
+        occ_box near = kit_cube(1.05f * x, 1.05f * y, -21.0f, 0.1f);
+        occ_box far = kit_cube(1.075f * x, 1.075f * y, -21.5f, 0.1f);
+        occ_box wall = kit_cube(x, y, -20.0f, 0.4f);
+        ck_assert_int_eq(occ_scene_add(scene, &near, &owner[i]), OCC_SUCCESS);
+        ck_assert_int_eq(occ_scene_add(scene, &far, &other[i]), OCC_SUCCESS);
+        ck_assert_int_eq(occ_scene_add_occluder(scene, &wall, owner[i], NULL), OCC_SUCCESS);
+    }
+    ck_assert_int_eq(occ_scene_commit(scene), OCC_SUCCESS);
+    const float eye[3] = {0.0f, 0.0f, 0.0f}, target[3] = {0.0f, 0.0f, -1.0f};
+    occ_camera_desc camera = kit_look(eye, target);
+    for (unsigned k = 0; k < KNOBS; k++) {
+        if (all_knobs[k].method == OCC_METHOD_FRUSTUM || all_knobs[k].max_occluders == 5) continue;
+        free(kit_crew_cull(&crew, scene, &camera, &all_knobs[k]));
+        for (int i = 0; i < PLACES; i++) {
+            ck_assert(occ_view_is_visible(crew.view[0], owner[i]));
+            ck_assert(!occ_view_is_visible(crew.view[0], other[i]));
+        }
+    }
+    occ_scene_destroy(scene);
+}
+END_TEST
+
 // --- awkward numbers -----------------------------------------------------------------------------
 
 // Boxes of one size class, some of them flat, segments, points or mixed with their opposites.
@@ -226,6 +260,7 @@ int main(void)
     tcase_add_checked_fixture(scenes, gather, dismiss);
     tcase_add_loop_test(scenes, every_backend_and_thread_count_gives_the_same_mask_on_every_run, 0,
                         5);
+    tcase_add_test(scenes, no_backend_lets_an_object_be_hidden_by_what_it_owns);
     suite_add_tcase(suite, scenes);
 
     TCase *numbers = tcase_create("numbers");

@@ -2,7 +2,6 @@
 // labels: unit property
 // What was moved, added and removed is so on every backend after the next commit, and masks stay
 // bit-identical. The OpenCL backend is sent only what changed.
-#include "box.h"
 #include "kit_crew.h"
 #include "kit_obs.h"
 #include "obs.h"
@@ -38,7 +37,6 @@ typedef struct edited {
     occ_camera_desc camera;
     double eye[3];
     kit_random random;
-    float low[3], high[3]; // of the objects' centers
 } edited;
 
 static void begin_edits(edited *e, const occ_scene_desc *desc)
@@ -67,49 +65,15 @@ static occ_box box_of(const edited *e, uint32_t i)
     return box;
 }
 
-static uint64_t key_of(const occ_scene *scene, const occ_box *box)
-{
-    float min[3], max[3];
-    occ_box_bounds(box, min, max);
-    return occ_octree_key(&scene->object_tree.root, min, max);
-}
-
 static void move(edited *e, uint32_t i, const occ_box *box)
 {
     ck_assert_int_eq(occ_scene_move(e->scene, e->objects[i], box), OCC_SUCCESS);
 }
 
-// Whether the box lies between the outermost centers of the scene's objects: they, and so the
-// octree's root, stay as they are when it moves.
-static bool is_inner(const edited *e, const occ_box *box)
-{
-    for (int j = 0; j < 3; j++)
-        if (box->center[j] <= e->low[j] || box->center[j] >= e->high[j]) return false;
-    return true;
-}
-
-static void find_outermost(edited *e)
-{
-    for (uint32_t i = 0; i < e->file.object_count; i++) {
-        occ_box box = box_of(e, i);
-        for (int j = 0; j < 3; j++) {
-            if (!i || box.center[j] < e->low[j]) e->low[j] = box.center[j];
-            if (!i || box.center[j] > e->high[j]) e->high[j] = box.center[j];
-        }
-    }
-}
-
-// Moves many objects about, each within its cell: only their rows travel.
 static void move_within_cells(edited *e)
 {
-    find_outermost(e);
-    for (uint32_t i = 0; i < e->file.object_count; i += 3) {
-        occ_box old = box_of(e, i), box = old;
-        for (int j = 0; j < 3; j++)
-            box.center[j] += kit_between(&e->random, -8, 8);
-        if (!is_inner(e, &old) || !is_inner(e, &box)) continue;
-        if (key_of(e->scene, &box) == key_of(e->scene, &old)) move(e, i, &box);
-    }
+    uint32_t moved = kit_move_within_cells(e->scene, e->objects, e->file.object_count, &e->random);
+    ck_assert_uint_gt(moved, e->file.object_count / 20);
 }
 
 static void move_far(edited *e)
