@@ -99,9 +99,10 @@ bool truth_view_make(truth_view *view, const obs_frame *frame, int width, int he
     float matrix[16];
     double rows[4][4];
     obs_view_projection(frame, matrix);
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            rows[r][c] = (double)matrix[4 * c + r];
+    for (int i = 0; i < 16; i++) {
+        rows[i % 4][i / 4] = (double)matrix[i];
+        if (!isfinite(matrix[i])) return false;
+    }
     add_planes(view, rows);
     bool is_orthographic = truth_dot(rows[3], rows[3]) == 0.0;
     bool found =
