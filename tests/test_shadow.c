@@ -102,6 +102,28 @@ static void place_object(kit_random *random, duel *d, double most)
         d->object.center[j] = (float)corner[j];
 }
 
+// A long thin object that lies, but for some roundings, in the plane through the eye and an edge:
+// large numbers go into a small one.
+static void place_along_edge(kit_random *random, duel *d)
+{
+    double rim[3], factor = 1.0 + world_scale(random, 1e-3, 10);
+    uint32_t along = kit_below(random, 3);
+    double u[3], nudge = world_scale(random, 1e-9, 1e-5) * (kit_below(random, 8) ? 1.0 : -1.0);
+    for (uint32_t k = 0; k < 3; k++)
+        u[k] = k == along ? world_between(random, -1, 1) : kit_below(random, 2) ? 1.0 : -1.0;
+    double p = world_between(random, -0.4, 0.4), q = world_between(random, -0.5, 0.5);
+    for (int j = 0; j < 3; j++) {
+        rim[j] = (double)d->occluder.center[j];
+        for (int k = 0; k < 3; k++)
+            rim[j] += u[k] * (double)d->occluder.axis[k][j];
+        double ray = rim[j] - d->eye[j], edge = (double)d->occluder.axis[along][j];
+        double middle = (double)d->occluder.center[j] - rim[j];
+        d->object.center[j] = (float)(d->eye[j] + factor * (ray + nudge * middle));
+        d->object.axis[0][j] = (float)(factor * (p * ray + q * edge));
+        d->object.axis[1][j] = d->object.axis[2][j] = 0.0f;
+    }
+}
+
 // An occluder about as far from the eye as it is large, and an object behind it.
 static void make_duel(kit_random *random, duel *d, double scale)
 {
@@ -113,6 +135,7 @@ static void make_duel(kit_random *random, duel *d, double scale)
     world_shape shape = (world_shape)kit_below(random, WORLD_SHAPES);
     d->occluder = world_box(random, shape, center, scale);
     place_object(random, d, 10);
+    if (kit_below(random, 2)) place_along_edge(random, d);
 }
 
 // As often as not the eye is special: level with a face, or in line with an edge.
@@ -132,6 +155,7 @@ static void make_duel_anywhere(kit_random *random, duel *d)
             if (kit_below(random, 2)) d->eye[j] = level;
         }
     place_object(random, d, 10);
+    if (kit_below(random, 2)) place_along_edge(random, d);
 }
 
 typedef struct tally {
@@ -173,7 +197,7 @@ START_TEST(no_shadow_holds_what_can_be_seen_and_clear_cases_are_found)
         oracle_free(judge);
     }
     check_tally(&sum, WORLD_SHARE(DUELS), 10);
-    ck_assert_uint_le(sum.missed * 1000, sum.clear);
+    ck_assert_uint_le(sum.missed * 400, sum.clear);
 }
 END_TEST
 
@@ -241,7 +265,7 @@ START_TEST(no_parallel_shadow_holds_what_can_be_seen_and_clear_cases_are_found)
         oracle_free(judge);
     }
     check_tally(&sum, WORLD_SHARE(DUELS), 20);
-    ck_assert_uint_le(sum.missed * 1000, sum.clear);
+    ck_assert_uint_le(sum.missed * 400, sum.clear);
 }
 END_TEST
 
