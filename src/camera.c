@@ -13,8 +13,10 @@
 typedef double row4[4];
 
 // Solves p_i . x + d_i = 0 for three planes by Cramer's rule. False if they meet in no single
-// point.
-static bool meet(const double *p, const double *q, const double *r, double x[3])
+// point, as far as `least` tells: their determinant over its terms. For planes of floats, whose
+// cross products round only once, x_j is off by less than 2^-50 of doubt_j.
+static bool meet(const double *p, const double *q, const double *r, double least, double x[3],
+                 double doubt[3])
 {
     double qr[3], rp[3], pq[3];
     occ_cross(q, r, qr);
@@ -22,10 +24,14 @@ static bool meet(const double *p, const double *q, const double *r, double x[3])
     occ_cross(p, q, pq);
     double determinant = occ_dot(p, qr);
     double size = occ_largest(p) * occ_largest(q) * occ_largest(r);
-    if (!(fabs(determinant) > size * 1e-12)) return false;
-    for (int j = 0; j < 3; j++)
+    if (!(fabs(determinant) > size * least)) return false;
+    double terms = occ_dot_magnitude(p, qr);
+    for (int j = 0; j < 3; j++) {
         x[j] = -(p[3] * qr[j] + q[3] * rp[j] + r[3] * pq[j]) / determinant;
-    return isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
+        doubt[j] = fabs(p[3] * qr[j]) + fabs(q[3] * rp[j]) + fabs(r[3] * pq[j]);
+        doubt[j] = (doubt[j] + fabs(x[j]) * terms) / fabs(determinant);
+    }
+    return isfinite(x[0] + doubt[0]) && isfinite(x[1] + doubt[1]) && isfinite(x[2] + doubt[2]);
 }
 
 static occ_result check_numbers(const occ_camera_desc *desc, const char **reason)
@@ -98,7 +104,8 @@ static bool orthographic_direction(const row4 *row, const double *near, double t
 }
 
 // Moves a plane to be relative to `own`, the eye in the matrix's coordinates, scales it and makes
-// the floats, rounded outward. False if it is no plane (an infinite far plane).
+// the floats, rounded outward. False if it is no plane (an infinite far plane). A plane through an
+// eye that was given is exact; one through an eye that was derived is not.
 static bool set_plane(occ_camera *camera, uint32_t p, const double *plane, const double own[3],
                       bool through_eye)
 {
@@ -107,39 +114,52 @@ static bool set_plane(occ_camera *camera, uint32_t p, const double *plane, const
     double scale = occ_unit_scale(size), error = 0.0, d = 0.0;
     if (!through_eye) {
         d = occ_dot(plane, own) + plane[3];
-        error = (occ_dot_magnitude(plane, own) + fabs(plane[3])) * 0x1p-50;
+        error = occ_dot_magnitude(plane, own) + fabs(plane[3]);
+        error = (error + occ_dot_magnitude(plane, camera->doubt)) * 0x1p-50;
     }
     float *constant = camera->constants.plane[p];
     for (int j = 0; j < 3; j++) {
         camera->plane[p][j] = plane[j] * scale;
         constant[j] = (float)(plane[j] * scale);
     }
-    camera->plane[p][3] = d * scale;
+    camera->plane[p][3] = p < OCC_NEAR_PLANE ? d * scale : (d - error) * scale;
     double wide = (d + error) * scale;
     if (!(fabs(wide) < 1e30)) return false; // too far to matter, or to be told from infinity
     constant[3] = occ_round_up(wide + fabs(wide) * 0x1p-21);
     return true;
 }
 
-// The corners of the near plane, if the eye lies in front of it.
-static void find_near_corners(occ_camera *camera)
+// A corner of the cutter must be inside of the planes opposite to those that it is on. Behind the
+// eye it is not: then some rays of the frustum are cut away as far as they go.
+static bool is_ahead(const double *opposite, const double corner[3])
 {
-    const double *near = camera->plane[OCC_NEAR_PLANE];
-    camera->clips_near = camera->orthographic || near[3] < 0.0;
-    if ((camera->planes & 0x1fu) != 0x1fu) camera->clips_near = false;
-    for (int c = 0; c < 4 && camera->clips_near; c++) {
-        const double *horizontal = camera->plane[c & 1], *vertical = camera->plane[2 + (c >> 1)];
-        if (!meet(horizontal, vertical, near, camera->near_corner[c])) {
-            camera->planes &= ~(1u << OCC_NEAR_PLANE); // a frustum without a near rectangle
-            camera->clips_near = false;
-        }
+    double height = occ_dot(opposite, corner) + opposite[3];
+    return height > 1e-6 * (occ_dot_magnitude(opposite, corner) + fabs(opposite[3]));
+}
+
+// The eye is outside of at most one of near and far, since their sum is not negative there.
+static void find_cutter(occ_camera *camera)
+{
+    camera->cutter = OCC_NO_PLANE;
+    for (uint32_t p = OCC_FRUSTUM_PLANES; p-- > OCC_NEAR_PLANE;) {
+        bool exists = camera->planes >> p & 1u;
+        if (exists && (camera->plane[p][3] < 0.0 || (camera->orthographic && p == OCC_NEAR_PLANE)))
+            camera->cutter = p;
+    }
+    camera->has_corners = camera->cutter != OCC_NO_PLANE && (camera->planes & 0xfu) == 0xfu;
+    for (int c = 0; c < 4 && camera->has_corners; c++) {
+        const double *left = camera->plane[c & 1], *low = camera->plane[2 + (c >> 1)];
+        const double *right = camera->plane[!(c & 1)], *high = camera->plane[2 + !(c >> 1)];
+        double *corner = camera->near_corner[c], doubt[3];
+        camera->has_corners = meet(left, low, camera->plane[camera->cutter], 1e-5, corner, doubt) &&
+                              is_ahead(right, corner) && is_ahead(high, corner);
     }
 }
 
 // The area that an orthographic camera shows, from two sides of its near rectangle.
 static void measure_view(occ_camera *camera)
 {
-    if (!camera->orthographic || !camera->clips_near) return;
+    if (!camera->orthographic || !camera->has_corners) return;
     double side[2][3], normal[3];
     for (int j = 0; j < 3; j++) {
         side[0][j] = camera->near_corner[1][j] - camera->near_corner[0][j];
@@ -178,26 +198,30 @@ occ_result occ_camera_init(occ_camera *camera, const occ_camera_desc *desc, cons
     double own[3];
     bool found =
         camera->orthographic
-            ? meet(row[0], row[1], plane[OCC_NEAR_PLANE], own) &&
+            ? meet(row[0], row[1], plane[OCC_NEAR_PLANE], 1e-12, own, camera->doubt) &&
                   orthographic_direction((const row4 *)row, plane[OCC_NEAR_PLANE], camera->toward)
-            : meet(row[0], row[1], row[3], own);
+            : meet(row[0], row[1], row[3], 1e-12, own, camera->doubt);
     if (!found) {
         *reason = "the view-projection matrix is singular: it has no eye";
         return OCC_ERROR_DEGENERATE_CAMERA;
     }
+    bool given = desc->eye && !camera->orthographic;
     for (int j = 0; j < 3; j++) {
-        bool given = desc->eye && !camera->orthographic;
         camera->eye[j] = given ? desc->eye[j] : own[j] + (desc->origin ? desc->origin[j] : 0.0);
+        if (!given) camera->doubt[j] += fabs(camera->eye[j]); // the sum rounds as well
         if (fabs(camera->eye[j]) > (double)OCC_MAX_COORDINATE) {
             *reason = "the eye is beyond OCC_MAX_COORDINATE";
             return OCC_ERROR_OUT_OF_RANGE;
         }
     }
     for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
-        bool through_eye = !camera->orthographic && p < OCC_NEAR_PLANE;
-        if (set_plane(camera, p, plane[p], own, through_eye)) camera->planes |= 1u << p;
+        if (set_plane(camera, p, plane[p], own, given && p < OCC_NEAR_PLANE)) {
+            camera->planes |= 1u << p;
+        }
     }
-    find_near_corners(camera);
+    find_cutter(camera);
+    for (int j = 0; j < 3 && (given || camera->orthographic); j++)
+        camera->doubt[j] = 0.0;
     measure_view(camera);
     set_constants(camera);
     return OCC_SUCCESS;

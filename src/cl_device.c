@@ -22,14 +22,19 @@ occ_result occ_cl_fail(const occ_hooks *hooks, cl_int error, const char *call)
     return occ_fail(hooks, result, "%s returned %d", call, (int)error);
 }
 
-// The first device of a type on any platform, or NULL.
-static cl_device_id find_device(const cl_platform_id *platforms, cl_uint count, cl_device_type type)
+// The first device of a type on any platform, or NULL. A platform that fails is passed over.
+static cl_device_id find_device(const occ_hooks *hooks, const cl_platform_id *platforms,
+                                cl_uint count, cl_device_type type)
 {
     for (cl_uint p = 0; p < count; p++) {
         cl_device_id devices[MOST_DEVICES];
         cl_uint found = 0;
         cl_int error = clGetDeviceIDs(platforms[p], type, MOST_DEVICES, devices, &found);
         if (!error && found) return devices[0];
+        if (error && error != CL_DEVICE_NOT_FOUND) {
+            occ_log(hooks, OCC_LOG_WARNING, "platform %u: clGetDeviceIDs returned %d", p,
+                    (int)error);
+        }
     }
     return NULL;
 }
@@ -42,8 +47,8 @@ static occ_result choose_device(occ_cl_device *device, const occ_hooks *hooks)
     if (error && error != PLATFORM_NOT_FOUND) return occ_cl_fail(hooks, error, "clGetPlatformIDs");
     if (error || !count) return occ_fail(hooks, OCC_ERROR_NO_DEVICE, "no OpenCL platform is there");
     if (count > MOST_PLATFORMS) count = MOST_PLATFORMS;
-    device->id = find_device(platforms, count, CL_DEVICE_TYPE_GPU);
-    if (!device->id) device->id = find_device(platforms, count, CL_DEVICE_TYPE_ALL);
+    device->id = find_device(hooks, platforms, count, CL_DEVICE_TYPE_GPU);
+    if (!device->id) device->id = find_device(hooks, platforms, count, CL_DEVICE_TYPE_ALL);
     if (device->id) return OCC_SUCCESS;
     return occ_fail(hooks, OCC_ERROR_NO_DEVICE, "%u OpenCL platforms, but none has a device",
                     count);

@@ -19,7 +19,7 @@
 struct occ_scene {
     occ_hooks hooks;
     uint64_t id;       // no other scene of this process has it
-    uint64_t revision; // counts commits that changed something
+    uint64_t revision; // counts the commits of the objects: `changed` leads from the one before
 
     occ_slots objects;
     occ_boxes boxes;

@@ -21,7 +21,8 @@ typedef struct solid {
     double axis[3][3];
     double normal[3]
                  [3]; // of the faces: normal[k] = axis[k+1] x axis[k+2]; each component within EPS
-    double size[3];   // |center_j| + sum |axis_j|: bounds every corner's coordinate
+    double size[3];   // |center_j| + sum |axis_j|: bounds every corner's coordinate; and the doubt
+                      // about the eye, which the center inherits
 } solid;
 
 // A face that the eye sees for certain: center + sign * axis[k].
@@ -36,7 +37,7 @@ static void set_solid(solid *s, const occ_camera *camera, const occ_box *box)
 {
     for (int j = 0; j < 3; j++) {
         s->center[j] = (double)box->center[j] - camera->eye[j];
-        s->size[j] = fabs(s->center[j]);
+        s->size[j] = fabs(s->center[j]) + camera->doubt[j];
         for (int k = 0; k < 3; k++) {
             s->axis[k][j] = (double)box->axis[k][j];
             s->size[j] += fabs(s->axis[k][j]);
@@ -155,6 +156,8 @@ static bool add_silhouette(occ_shadow *shadow, const solid *s, const occ_camera 
     if (camera->orthographic) {
         d = -occ_dot(n, point);
         d_error = 16.0 * EPS * occ_dot_magnitude(n, s->size) + 3.0 * error * occ_largest(s->size);
+    } else {
+        d_error = 8.0 * EPS * occ_dot_magnitude(n, camera->doubt);
     }
     return add_plane(shadow, n, error, d, d_error);
 }
@@ -175,31 +178,34 @@ static bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera
     return true;
 }
 
+// Whether all that the near plane cuts away is in front of a visible face.
+static bool cut_is_in_front(const solid *s, const occ_camera *camera, const face *f, int k)
+{
+    for (int c = 0; c < 4; c++) {
+        double offset[3], size[3];
+        for (int j = 0; j < 3; j++) {
+            offset[j] = camera->near_corner[c][j] - f->center[j];
+            size[j] = fabs(camera->near_corner[c][j]) + s->size[j];
+        }
+        double height = f->facing * occ_dot(s->normal[k], offset);
+        if (!(height > occ_dot_magnitude(s->normal[k], size) * 1e-9)) return false;
+    }
+    return true;
+}
+
 // The near plane cuts away what lies between it and the eye. The occluder is whole if all of that
 // is in front of one of its visible faces, or if the occluder lies beyond the near plane.
 static bool survives_near(const solid *s, const occ_camera *camera, const face seen[3])
 {
-    if (!camera->clips_near) return true;
-    for (int k = 0; k < 3; k++) {
-        if (!seen[k].sign) continue;
-        int in_front = 0;
-        for (int c = 0; c < 4; c++) {
-            double offset[3], size[3];
-            for (int j = 0; j < 3; j++) {
-                offset[j] = camera->near_corner[c][j] - seen[k].center[j];
-                size[j] = fabs(camera->near_corner[c][j]) + s->size[j];
-            }
-            double height = seen[k].facing * occ_dot(s->normal[k], offset);
-            in_front += height > occ_dot_magnitude(s->normal[k], size) * 1e-9;
-        }
-        if (in_front == 4) return true;
-    }
-    const double *near = camera->plane[OCC_NEAR_PLANE];
+    if (camera->cutter == OCC_NO_PLANE) return true;
+    for (int k = 0; k < 3 && camera->has_corners; k++)
+        if (seen[k].sign && cut_is_in_front(s, camera, &seen[k], k)) return true;
+    const double *cutter = camera->plane[camera->cutter];
     double reach = 0.0;
     for (int k = 0; k < 3; k++)
-        reach += fabs(occ_dot(near, s->axis[k]));
-    double size = occ_dot_magnitude(near, s->size) + fabs(near[3]);
-    return occ_dot(near, s->center) + near[3] - reach > size * 1e-9;
+        reach += fabs(occ_dot(cutter, s->axis[k]));
+    double size = occ_dot_magnitude(cutter, s->size) + fabs(cutter[3]);
+    return occ_dot(cutter, s->center) + cutter[3] - reach > size * 1e-9;
 }
 
 bool occ_shadow_init(occ_shadow *shadow, const occ_camera *camera, const occ_box *box,

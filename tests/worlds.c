@@ -119,33 +119,28 @@ occ_box world_scaled(const occ_box *box, float factor)
 
 // --- cameras -------------------------------------------------------------------------------------
 
+// Clip z runs from 0 to 1 between the distances `zero` and `one`.
 static void project_orthographic(const world_lens *lens, float near_z, float far_z, mat4 out)
 {
     float y = lens->height > 0.0f ? 0.5f * lens->height : 10.0f, x = y * 16.0f / 9.0f;
-    switch (lens->depth) {
-    case OCC_DEPTH_ZERO_TO_ONE:
-        glm_ortho_rh_zo(-x, x, -y, y, near_z, far_z, out);
-        break;
-    case OCC_DEPTH_ONE_TO_ZERO:
-        glm_ortho_rh_zo(-x, x, -y, y, far_z, near_z, out);
-        break;
-    default:
+    bool reversed = lens->depth == OCC_DEPTH_ONE_TO_ZERO;
+    float zero = reversed ? far_z : near_z, one = reversed ? near_z : far_z;
+    if (lens->depth == OCC_DEPTH_MINUS_ONE_TO_ONE) {
         glm_ortho_rh_no(-x, x, -y, y, near_z, far_z, out);
+    } else {
+        glm_ortho_rh_zo(-x, x, -y, y, zero, one, out);
     }
 }
 
 static void project_perspective(const world_lens *lens, float near_z, float far_z, mat4 out)
 {
     float height = lens->height > 0.0f ? lens->height : 1.0471976f, aspect = 16.0f / 9.0f;
-    switch (lens->depth) {
-    case OCC_DEPTH_ZERO_TO_ONE:
-        glm_perspective_rh_zo(height, aspect, near_z, far_z, out);
-        break;
-    case OCC_DEPTH_ONE_TO_ZERO:
-        glm_perspective_rh_zo(height, aspect, far_z, near_z, out);
-        break;
-    default:
+    bool reversed = lens->depth == OCC_DEPTH_ONE_TO_ZERO;
+    float zero = reversed ? far_z : near_z, one = reversed ? near_z : far_z;
+    if (lens->depth == OCC_DEPTH_MINUS_ONE_TO_ONE) {
         glm_perspective_rh_no(height, aspect, near_z, far_z, out);
+    } else {
+        glm_perspective_rh_zo(height, aspect, zero, one, out);
     }
     switch (lens->projection) {
     case WORLD_INFINITE: // the limit of the above
@@ -189,6 +184,30 @@ occ_camera_desc world_camera(const float eye[3], const float target[3], const wo
     occ_camera_desc camera = {.depth = lens->depth};
     memcpy(camera.view_projection, product, sizeof camera.view_projection);
     return camera;
+}
+
+occ_camera_desc world_skewed_camera(kit_random *random, double reach)
+{
+    occ_camera_desc desc = {.depth = (occ_depth)kit_below(random, 3)};
+    double eye[3], row[4][3];
+    world_direction(random, eye);
+    double nearness = kit_below(random, 2) ? world_scale(random, 1e-9, 1) : 1.0;
+    uint32_t from = kit_below(random, 4), to = (from + 1 + kit_below(random, 3)) % 4;
+    for (int r = 0; r < 4; r++)
+        world_direction(random, row[r]);
+    for (int r = 0; r < 4; r++) {
+        double weight = world_scale(random, 1e-3, 1e3), d = 0.0;
+        for (int j = 0; j < 3; j++) {
+            if (r == (int)to) row[r][j] = row[from][j] + nearness * row[r][j];
+            desc.view_projection[4 * j + r] = (float)(weight * row[r][j]);
+            d -= (double)desc.view_projection[4 * j + r] * reach * eye[j];
+        }
+        desc.view_projection[12 + r] = (float)d + (r == 2 ? (float)weight * 0.1f : 0.0f);
+    }
+    bool begins_at_eye = kit_below(random, 2) == 0; // else the near plane spares no box close by
+    for (int c = 0; c < 4 && begins_at_eye; c++)
+        desc.view_projection[4 * c + 2] = 0.5f * desc.view_projection[4 * c + 3];
+    return desc;
 }
 
 // --- scenes --------------------------------------------------------------------------------------

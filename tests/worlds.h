@@ -65,6 +65,10 @@ typedef struct world_lens {
 // Built by cglm in float, as an engine does it. `up` is y, or z if the camera looks along y.
 occ_camera_desc world_camera(const float eye[3], const float target[3], const world_lens *lens);
 
+// Rows in random directions, two of which may be nearly parallel, that meet next to a point as far
+// from the origin as `reach`.
+occ_camera_desc world_skewed_camera(kit_random *random, double reach);
+
 // --- scenes --------------------------------------------------------------------------------------
 
 typedef struct world_occluder {
