@@ -67,13 +67,10 @@ static int sign_at_point(const judge *j, int line, const num *point)
 // A point that is surely inside the piece.
 static bool find_inner_point(const judge *j, const judge_piece *piece, num *point)
 {
-    double x = 0.0, y = 0.0;
-    for (int i = 0; i < piece->count; i++) {
-        x += piece->vertex[i][0].v / piece->vertex[i][2].v;
-        y += piece->vertex[i][1].v / piece->vertex[i][2].v;
-    }
-    point[0] = num_of(x / piece->count);
-    point[1] = num_of(y / piece->count);
+    double middle[2];
+    judge_piece_middle(piece, middle);
+    point[0] = num_of(middle[0]);
+    point[1] = num_of(middle[1]);
     point[2] = num_of(1.0);
     for (int i = 0; i < piece->count; i++)
         if (sign_at_point(j, piece->edge[i] / 2, point) != (piece->edge[i] % 2 ? -1 : 1))
@@ -121,9 +118,24 @@ static bool misses(judge *j, judge_candidate *candidate, const judge_piece *piec
     return false;
 }
 
+static void set_witness(judge *j, const judge_piece *piece)
+{
+    double middle[2], at[4];
+    const judge_sheet *sheet = &j->sheet;
+    judge_piece_middle(piece, middle);
+    for (int i = 0; i < 4; i++)
+        at[i] = sheet->o[i].v + middle[0] * sheet->u[i].v + middle[1] * sheet->v[i].v;
+    for (int i = 0; i < 3; i++)
+        j->witness[i] = at[i] / at[3] + j->reference[i].v;
+    j->has_witness = true;
+}
+
 static bool survives(judge *j, const judge_piece *piece)
 {
-    if (!j->measuring) return true;
+    if (!j->measuring) {
+        set_witness(j, piece);
+        return true;
+    }
     j->seen_area += fmax(judge_piece_area(piece) * j->sheet.area, DBL_MIN);
     return false;
 }
@@ -135,7 +147,7 @@ static bool is_seen(judge *j, const judge_piece *piece, size_t next)
     int crossing[JUDGE_PLANES], crossings = 0;
     for (;; next++) {
         if (next == j->candidate_count) return survives(j, piece);
-        if (j->filter && !j->measuring && !choose(j, piece, next)) return true;
+        if (j->filter && !j->measuring && !choose(j, piece, next)) return survives(j, piece);
         if (!misses(j, &j->candidates[next], piece, crossing, &crossings)) break;
     }
     judge_piece *buffer = malloc(3 * sizeof *buffer);
@@ -263,14 +275,24 @@ static bool judge_body_in_hand(judge *j)
     if (each_facet(j, false, is_sheet_seen, &facing)) return true;
     if (facing) return false;
     j->seen_area = j->whole_area = 1.0; // the eye is in it
-    return judge_has_inside(j);
+    for (int i = 0; i < 3; i++)
+        j->witness[i] = j->reference[i].v;
+    return j->has_witness = judge_has_inside(j);
 }
 
 bool judge_sees(judge *j, const occ_box *object, int self)
 {
     judge_make_body(j, &j->body, object);
     find_candidates(j, self);
+    j->has_witness = false;
     return judge_body_in_hand(j);
+}
+
+bool judge_witness(const judge *j, double point[3])
+{
+    for (int i = 0; i < 3; i++)
+        point[i] = j->has_witness ? j->witness[i] : 0.0;
+    return j->has_witness;
 }
 
 double judge_share(judge *j, const occ_box *object, int self)

@@ -43,6 +43,11 @@ void judge_set_occluders(judge *j, const occ_box *boxes, const int *owners, size
 // Whether any part of the object is seen. `self` is its number among owners, or -1.
 bool judge_sees(judge *j, const occ_box *object, int self);
 
+// A point of the patch that the latest judge_sees() saw, rounded to double: the middle of what is
+// left of a face, not of all that is seen; the eye itself if the object holds it. False if nothing
+// was seen.
+bool judge_witness(const judge *j, double point[3]);
+
 // The part that is seen of all the area that judge_sees() looks at, 0 to 1: a measure, with the
 // areas in double. 0 exactly if nothing is seen.
 double judge_share(judge *j, const occ_box *object, int self);

@@ -123,6 +123,8 @@ struct judge {
     size_t candidate_count;
     bool measuring;
     double seen_area, whole_area;
+    bool has_witness;
+    double witness[3];
     // scratch
     exact3 c, a[3], m, s;
     exact4 half[JUDGE_HALVES];
@@ -183,6 +185,8 @@ void judge_signs(judge *j, int line, const judge_piece *piece, signed char *sign
 void judge_cut(judge *j, int line, const judge_piece *piece, const signed char *signs, int side,
                judge_piece *part);
 double judge_piece_area(const judge_piece *piece);
+// The mean of its vertices, rounded.
+void judge_piece_middle(const judge_piece *piece, double middle[2]);
 
 // --- judge.c -------------------------------------------------------------------------------------
 

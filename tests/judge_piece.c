@@ -175,3 +175,13 @@ double judge_piece_area(const judge_piece *piece)
     }
     return area > 0.0 ? area : 0.0;
 }
+
+void judge_piece_middle(const judge_piece *piece, double middle[2])
+{
+    middle[0] = middle[1] = 0.0;
+    for (int i = 0; i < piece->count; i++) {
+        const num *vertex = piece->vertex[i];
+        middle[0] += vertex[0].v / vertex[2].v / piece->count;
+        middle[1] += vertex[1].v / vertex[2].v / piece->count;
+    }
+}

@@ -29,15 +29,15 @@ static int sign_at_corner(judge *j, const judge_body *body, judge_shadow *shadow
     return mpz_sgn(j->t[0]);
 }
 
-// Whoever is strictly inside of all planes has a segment that passes through inner points, but for
-// occluders that have none.
+// Whoever is strictly inside of all planes has a segment that passes through inner points. A
+// segment or a point, which has none, has planes with both of their sides among these.
 judge_sight judge_single(judge *j, const occ_box *object, const occ_box *occluder)
 {
     judge_admit(j, occluder);
     judge_make_body(j, &j->body, object);
     judge_make_shadow(j, &j->single, occluder, false);
     if (j->single.empty) return JUDGE_SEEN;
-    judge_sight least = j->single.body.shape.rank < 2 ? JUDGE_GRAZED : JUDGE_HIDDEN;
+    judge_sight least = JUDGE_HIDDEN;
     for (int p = 0; p < j->single.count; p++) {
         for (unsigned corner = 0; corner < 8; corner++) {
             int sign = sign_at_corner(j, &j->body, &j->single, p, corner);

@@ -75,21 +75,21 @@ static bool clip_line(const frame *f, double growth, const double p[3], const do
     return *low <= *high;
 }
 
-static bool is_clear(const frame *occluders, int count, const double p[3], const double d[3],
-                     double end)
+static bool is_clear(const frame *occluders, int count, double growth, const double p[3],
+                     const double d[3], double end)
 {
     for (int i = 0; i < count; i++) {
         double low = 0.0, high = end;
-        if (clip_line(&occluders[i], GROWTH, p, d, &low, &high)) return false;
+        if (clip_line(&occluders[i], growth, p, d, &low, &high)) return false;
     }
     return true;
 }
 
-static bool holds(const frame *f, const double p[3])
+static bool holds(const frame *f, double growth, const double p[3])
 {
     static const double nowhere[3];
     double low = 0.0, high = 1.0;
-    return clip_line(f, GROWTH, p, nowhere, &low, &high);
+    return clip_line(f, growth, p, nowhere, &low, &high);
 }
 
 // --- scenes --------------------------------------------------------------------------------------
@@ -122,7 +122,7 @@ static world any_world(kit_random *random)
         do {
             w.boxes[i] = any_box(random, 3, world_between(random, 1, 4));
             w.frames[i] = frame_of(&w.boxes[i]);
-        } while (holds(&w.frames[i], w.eye));
+        } while (holds(&w.frames[i], GROWTH, w.eye));
     }
     return w;
 }
@@ -165,9 +165,21 @@ static double sample_share(kit_random *random, const world *w, const occ_box *ob
                    s * f.axis[(k + 1) % 3][j] + t * f.axis[(k + 2) % 3][j];
             d[j] = w->eye[j] - p[j];
         }
-        seen += is_clear(w->frames, w->count, p, d, 1.0);
+        seen += is_clear(w->frames, w->count, GROWTH, p, d, 1.0);
     }
     return seen / SAMPLES;
+}
+
+// The point that the judge names is in the object, and no occluder made a little smaller is before
+// it.
+static void check_witness(const judge *j, const world *w, const frame *object)
+{
+    double p[3], d[3];
+    KIT_CHECK(judge_witness(j, p), "seen, but nowhere");
+    for (int i = 0; i < 3; i++)
+        d[i] = w->eye[i] - p[i];
+    KIT_CHECK(holds(object, GROWTH, p), "the witness is not in the object");
+    KIT_CHECK(is_clear(w->frames, w->count, 2.0 - GROWTH, p, d, 1.0), "the witness is not seen");
 }
 
 START_TEST(shares_agree_with_samples_of_faces)
@@ -182,10 +194,11 @@ START_TEST(shares_agree_with_samples_of_faces)
         for (int k = 0; k < 6; k++) {
             occ_box object = any_object(&random, &w);
             frame f = frame_of(&object);
-            if (holds(&f, w.eye)) continue;
+            if (holds(&f, GROWTH, w.eye)) continue;
             double share = judge_share(j, &object, -1),
                    sampled = sample_share(&random, &w, &object);
             bool seen = judge_sees(j, &object, -1);
+            if (seen) check_witness(j, &w, &f);
             KIT_CHECK(seen == (share > 0.0), "share %g", share);
             KIT_CHECK(seen || sampled == 0.0, "said hidden, but %g of it is seen", sampled);
             KIT_CHECK(share < 0.01 || sampled > 0.0, "%g of it is seen, but no sample", share);
@@ -253,7 +266,7 @@ static int sample_volume(kit_random *random, const world *w, const frustum *view
         high = fmin(high, end) * (1.0 - 1e-6);
         for (int j = 0; j < 3; j++)
             p[j] += high * d[j];
-        seen += is_clear(w->frames, w->count, p, d, (end - high) * (1.0 + 1e-6));
+        seen += is_clear(w->frames, w->count, GROWTH, p, d, (end - high) * (1.0 + 1e-6));
     }
     return seen;
 }
