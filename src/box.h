@@ -7,8 +7,8 @@
 // OCC_SUCCESS, or what is wrong with the numbers of a box.
 occ_result occ_box_check(const occ_box *box);
 
-// The axis-aligned bounds of a box, rounded outward: by at most two floats, or where center and axes
-// cancel, by 2^-49 of their sum.
+// The axis-aligned bounds of a box, rounded outward: by at most two floats, or where center and
+// axes cancel, by 2^-49 of their sum.
 void occ_box_bounds(const occ_box *box, float min[3], float max[3]);
 
 #endif

@@ -244,11 +244,11 @@ START_TEST(no_knob_hides_what_can_be_seen)
                                           {.min_area = 1e30f},
                                           {.grain = 2},
                                           {.min_area = 1e-30f, .max_occluders = 1000, .grain = 1}};
-    static const uint32_t leaves[] = {1, 3, 64, 1024};
+    static const uint32_t leaves[] = {1, 1024};
     crowd c;
     make_crowd(&c, 7);
     occ_view *view = world_view(OCC_BACKEND_PLAIN, 0);
-    for (int l = 0; l < 4; l++) {
+    for (int l = 0; l < 2; l++) {
         occ_scene *scene = scene_of(&c, leaves[l]);
         for (size_t k = 0; k < sizeof knobs / sizeof *knobs; k++) {
             occ_camera_desc camera = camera_of((uint32_t)k % CAMERAS);
@@ -328,8 +328,10 @@ START_TEST(an_owner_is_never_hidden_by_its_own_not_even_with_its_node)
 {
     static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE};
     occ_box objects[40];
-    for (int i = 0; i < 40; i++)
-        objects[i] = kit_cube(0.01f * (float)(i % 7), 0.01f * (float)(i / 7), -50, 0.5f);
+    for (int i = 0; i < 40; i++) {
+        int column = i % 7, line = i / 7;
+        objects[i] = kit_cube(0.01f * (float)column, 0.01f * (float)line, -50, 0.5f);
+    }
     world_occluder wall = {{{0, 0, -20}, {{9, 0, 0}, {0, 9, 0}, {0, 0, 0.1f}}}, 0};
     occ_camera_desc camera = kit_look((float[3]){0, 0, 0}, (float[3]){0, 0, -1});
     occ_view *view = world_view(OCC_BACKEND_PLAIN, 0);

@@ -336,7 +336,8 @@ START_TEST(three_axes_in_one_plane_hide_no_more_than_their_hexagon)
     const occ_box hexagon = {{0, 0, 0}, {{0, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
     unsigned hidden = 0;
     for (int i = 0; i < 400; i++) {
-        float y = (float)(i % 20) / 2 - 5, z = (float)(i / 20) / 2 - 5; // it spans ±2 at half way
+        int column = i % 20, line = i / 20;
+        float y = 0.5f * (float)column - 5, z = 0.5f * (float)line - 5; // it spans ±2 at half way
         occ_box object = kit_cube(-5, y, z, 0.01f);
         if (!hides_from(5, 0, 0, &hexagon, &object)) continue;
         ck_assert(fabsf(y) < 4 && fabsf(z) < 4 && fabsf(y - z) < 4);

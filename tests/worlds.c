@@ -119,33 +119,28 @@ occ_box world_scaled(const occ_box *box, float factor)
 
 // --- cameras -------------------------------------------------------------------------------------
 
+// Clip z runs from 0 to 1 between the distances `zero` and `one`.
 static void project_orthographic(const world_lens *lens, float near_z, float far_z, mat4 out)
 {
     float y = lens->height > 0.0f ? 0.5f * lens->height : 10.0f, x = y * 16.0f / 9.0f;
-    switch (lens->depth) {
-    case OCC_DEPTH_ZERO_TO_ONE:
-        glm_ortho_rh_zo(-x, x, -y, y, near_z, far_z, out);
-        break;
-    case OCC_DEPTH_ONE_TO_ZERO:
-        glm_ortho_rh_zo(-x, x, -y, y, far_z, near_z, out);
-        break;
-    default:
+    bool reversed = lens->depth == OCC_DEPTH_ONE_TO_ZERO;
+    float zero = reversed ? far_z : near_z, one = reversed ? near_z : far_z;
+    if (lens->depth == OCC_DEPTH_MINUS_ONE_TO_ONE) {
         glm_ortho_rh_no(-x, x, -y, y, near_z, far_z, out);
+    } else {
+        glm_ortho_rh_zo(-x, x, -y, y, zero, one, out);
     }
 }
 
 static void project_perspective(const world_lens *lens, float near_z, float far_z, mat4 out)
 {
     float height = lens->height > 0.0f ? lens->height : 1.0471976f, aspect = 16.0f / 9.0f;
-    switch (lens->depth) {
-    case OCC_DEPTH_ZERO_TO_ONE:
-        glm_perspective_rh_zo(height, aspect, near_z, far_z, out);
-        break;
-    case OCC_DEPTH_ONE_TO_ZERO:
-        glm_perspective_rh_zo(height, aspect, far_z, near_z, out);
-        break;
-    default:
+    bool reversed = lens->depth == OCC_DEPTH_ONE_TO_ZERO;
+    float zero = reversed ? far_z : near_z, one = reversed ? near_z : far_z;
+    if (lens->depth == OCC_DEPTH_MINUS_ONE_TO_ONE) {
         glm_perspective_rh_no(height, aspect, near_z, far_z, out);
+    } else {
+        glm_perspective_rh_zo(height, aspect, zero, one, out);
     }
     switch (lens->projection) {
     case WORLD_INFINITE: // the limit of the above
