@@ -46,7 +46,7 @@ static void compare(occ_view *plain, occ_view *device, const occ_scene *scene,
 
 START_TEST(the_devices_mask_is_the_plain_mask_on_every_named_scene)
 {
-    static const uint32_t counts[] = {100, 100, 250, 100, 100}; // enough for something to be hidden
+    static const uint32_t counts[] = {80, 80, 200, 80, 80}; // enough for something to be hidden
     static const occ_cull_desc knobs[] = {{.method = OCC_METHOD_SINGLE, .grain = 1},
                                           {.method = OCC_METHOD_SINGLE, .grain = 100000},
                                           {.method = OCC_METHOD_PAIRWISE}};
@@ -119,7 +119,13 @@ END_TEST
 
 // --- edits ---------------------------------------------------------------------------------------
 
-// 700 objects lie in three blocks of rows, each of which travels on its own.
+// 700 objects lie in three blocks of rows, each of which travels on its own. Not on oclgrind 21.10:
+// there, what a copy from the host leaves out of a buffer counts as uninitialised from then on.
+static bool takes_partial_copies(void)
+{
+    return getenv("OCLGRIND_UNINITIALIZED") == NULL;
+}
+
 START_TEST(changed_rows_travel_to_the_device)
 {
     enum { COUNT = 700 };
@@ -342,7 +348,7 @@ int main(void)
     suite_add_tcase(suite, scenes);
 
     TCase *edits = tcase_create("edits");
-    tcase_add_test(edits, changed_rows_travel_to_the_device);
+    if (takes_partial_copies()) tcase_add_test(edits, changed_rows_travel_to_the_device);
     tcase_add_test(edits, a_scene_that_shrinks_and_grows_is_followed);
     suite_add_tcase(suite, edits);
 

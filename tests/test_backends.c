@@ -92,7 +92,8 @@ START_TEST(no_backend_lets_an_object_be_hidden_by_what_it_owns)
     ck_assert_int_eq(occ_scene_create(&small_leaves, &scene), OCC_SUCCESS);
     occ_object owner[PLACES], other[PLACES];
     for (int i = 0; i < PLACES; i++) {
-        float x = (float)(i % 20 - 10), y = (float)(i / 20 - 5);
+        int column = i % 20 - 10, line = i / 20 - 5;
+        float x = (float)column, y = (float)line;
         occ_box near = kit_cube(1.05f * x, 1.05f * y, -21.0f, 0.1f);
         occ_box far = kit_cube(1.075f * x, 1.075f * y, -21.5f, 0.1f);
         occ_box wall = kit_cube(x, y, -20.0f, 0.4f);
