@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The subcommands of occlude-bench. Each gets its own name as argv[0] and returns the exit status:
-/// 0, 1 when an input could not be used (after a message, with nothing written), 2 on bad usage.
+/// 0, 1 when an input could not be used (after a message, with nothing written), 2 on bad usage,
+/// and 3 when `compare` found a visible object reported hidden.
 #ifndef OCC_BENCH_COMMANDS_H
 #define OCC_BENCH_COMMANDS_H
 
@@ -19,5 +20,11 @@ int bench_convert(int argc, char **argv);
 
 /// Draws what was decided in one frame.
 int bench_picture(int argc, char **argv);
+
+/// Finds out by sampling what can truly be seen.
+int bench_truth(int argc, char **argv);
+
+/// Judges a result file by it.
+int bench_compare(int argc, char **argv);
 
 #endif

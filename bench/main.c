@@ -27,6 +27,11 @@ static const bench_command bench_commands[] = {
     {"picture", "picture F.obs --frame K --out P.png",
      "draw what was decided in a frame, from above and from the camera",
      "occlude-bench picture city.obs --frame 20 --out city.png", bench_picture},
+    {"truth", "truth F.obs --out T.tru [--frames LIST] [--size WxH]",
+     "find out by sampling what can truly be seen",
+     "occlude-bench truth city.obs --frames 0,20,40 --out city.tru", bench_truth},
+    {"compare", "compare T.tru R.vis", "judge a result by it: false-hidden and missed objects",
+     "occlude-bench compare city.tru city.vis", bench_compare},
 };
 enum { COMMANDS = sizeof bench_commands / sizeof *bench_commands };
 
@@ -45,7 +50,8 @@ static void print_usage(FILE *stream)
     }
     fputs(
         "\n`occlude-bench COMMAND --help` tells all of a command's options. Exit status: 0; 1 if\n"
-        "an input cannot be used (nothing is written then); 2 on bad usage.\n",
+        "an input cannot be used (nothing is written then); 2 on bad usage; 3 if `compare`\n"
+        "finds a visible object reported hidden.\n",
         stream);
 }
 

@@ -22,12 +22,6 @@ float occ_occluder_reach(const occ_box *box)
     return area < 1e38 ? occ_round_up(area * (1.0 + 0x1p-40)) : 3e38f;
 }
 
-static bool same_root(const occ_root *a, const occ_root *b)
-{
-    return a->size == b->size && a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] &&
-           a->origin[2] == b->origin[2];
-}
-
 // The bounds of every item of a table, made once for the root, the keys and the nodes.
 typedef struct bounds {
     float min[3], max[3];
@@ -112,7 +106,7 @@ static occ_result refit_objects(occ_scene *scene, bool *fits)
     occ_tree_items items = occ_scene_object_items(scene);
     items = cache_bounds(&items, scene->boxes.count, table);
     occ_root root = occ_octree_root(&items, NULL, scene->boxes.count);
-    *fits = same_root(&root, &scene->object_tree.root);
+    *fits = occ_root_equals(&root, &scene->object_tree.root);
     if (*fits) occ_octree_refit(&scene->object_tree, &items, NULL);
     occ_free(&scene->hooks, table, bytes);
     return OCC_SUCCESS;
@@ -199,7 +193,7 @@ static occ_result refit_occluders(occ_scene *scene, const occ_tree_items *items)
     const uint32_t *order = scene->occluder_order.data;
     if (!scene->occluders_reordered) {
         occ_root root = occ_octree_root(items, order, scene->occluder_order.count);
-        if (same_root(&root, &scene->occluder_tree.root)) {
+        if (occ_root_equals(&root, &scene->occluder_tree.root)) {
             occ_octree_refit(&scene->occluder_tree, items, order);
             return OCC_SUCCESS;
         }

@@ -41,6 +41,12 @@ typedef struct occ_root {
     double size; // a power of two; 0 without items
 } occ_root;
 
+static inline bool occ_root_equals(const occ_root *a, const occ_root *b)
+{
+    return a->size == b->size && a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] &&
+           a->origin[2] == b->origin[2];
+}
+
 typedef struct occ_octree {
     occ_array nodes; // of occ_node
     occ_root root;

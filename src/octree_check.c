@@ -2,8 +2,6 @@
 // The validation tier of the octree: every invariant, recomputed from the items.
 #include "octree.h"
 
-#include <string.h>
-
 static const char *check_ranges(const occ_octree *tree, const occ_node *node)
 {
     const occ_node *nodes = occ_octree_nodes(tree);
@@ -106,7 +104,7 @@ static bool is_root_of(const occ_octree *tree, const occ_tree_items *items, cons
                        uint32_t count)
 {
     occ_root root = occ_octree_root(items, rows, count);
-    return !memcmp(&root, &tree->root, sizeof root);
+    return occ_root_equals(&root, &tree->root);
 }
 
 static const char *check_levels(const occ_octree *tree)

@@ -27,7 +27,7 @@ static occ_result make_backend(occ_view *view, const occ_view_desc *desc, const 
     case OCC_BACKEND_PLAIN:
         return occ_backend_plain_create(&view->hooks, &view->backend);
     case OCC_BACKEND_OPENCL:
-#if OCC_HAVE_OPENCL
+#ifdef OCC_HAVE_OPENCL
         return occ_backend_opencl_create(&view->hooks, cl_desc, &view->backend);
 #else
         (void)cl_desc;

@@ -6,12 +6,19 @@
 
 #include <check.h>
 #include <occlude/occlude.h>
+#include <string.h>
 
 // For loops: ck_assert() writes to a pipe even when it holds, this does not.
 #define KIT_CHECK(condition, ...)                                                                  \
     do {                                                                                           \
         if (!(condition)) ck_abort_msg(__VA_ARGS__);                                               \
     } while (0)
+
+// Bit for bit: -0 is not 0 here, and a NaN is itself.
+static inline bool kit_same_bits(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
 
 // SplitMix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014).
 typedef struct kit_random {

@@ -60,8 +60,10 @@ static occ_box moved(kit_random *random, const occ_box *box)
 {
     if (!kit_below(random, 3)) return any_box(random);
     occ_box near = *box;
-    for (int j = 0; j < 3; j++)
+    for (int j = 0; j < 3; j++) {
         near.center[j] += kit_between(random, -0.001f, 0.001f);
+        near.axis[j][j] *= kit_between(random, 0.999f, 1.001f);
+    }
     return near;
 }
 
@@ -172,7 +174,7 @@ static void check_object(const kit_model *model, uint32_t i)
     KIT_CHECK(result == (object->alive ? OCC_SUCCESS : OCC_ERROR_STALE_HANDLE), "object %u: %s", i,
               occ_result_name(result));
     if (!object->alive) return;
-    KIT_CHECK(!memcmp(&box, &object->box, sizeof box), "object %u has another's box", i);
+    KIT_CHECK(kit_same_bits(&box, &object->box, sizeof box), "object %u has another's box", i);
     KIT_CHECK(occ_object_slot(object->handle) < occ_scene_slot_count(model->scene),
               "object %u is beyond the mask", i);
 }
@@ -186,7 +188,7 @@ static void check_occluder(const kit_model *model, uint32_t i)
     KIT_CHECK(result == (occluder->alive ? OCC_SUCCESS : OCC_ERROR_STALE_HANDLE), "occluder %u: %s",
               i, occ_result_name(result));
     if (!occluder->alive) return;
-    KIT_CHECK(!memcmp(&box, &occluder->box, sizeof box), "occluder %u has another's box", i);
+    KIT_CHECK(kit_same_bits(&box, &occluder->box, sizeof box), "occluder %u has another's box", i);
     if (occluder->owner != NOBODY) expected = model->objects[occluder->owner].handle;
     KIT_CHECK(owner.index == expected.index && owner.generation == expected.generation,
               "occluder %u has another owner", i);

@@ -228,21 +228,21 @@ void kit_check_trees(const occ_scene *scene)
 
 void kit_check_same_tree(const occ_octree *a, const occ_octree *b)
 {
-    KIT_CHECK(!memcmp(&a->root, &b->root, sizeof a->root), "the root cubes differ");
+    KIT_CHECK(kit_same_bits(&a->root, &b->root, sizeof a->root), "the root cubes differ");
     KIT_CHECK(a->levels == b->levels && a->leaf_items == b->leaf_items, "the levels differ");
-    KIT_CHECK(!memcmp(a->level_first, b->level_first, sizeof a->level_first),
+    KIT_CHECK(kit_same_bits(a->level_first, b->level_first, sizeof a->level_first),
               "the lists of levels differ");
     KIT_CHECK(a->nodes.count == b->nodes.count, "%u nodes are not %u", a->nodes.count,
               b->nodes.count);
     for (uint32_t i = 0; i < a->nodes.count; i++)
-        KIT_CHECK(!memcmp(&occ_octree_nodes(a)[i], &occ_octree_nodes(b)[i], sizeof(occ_node)),
+        KIT_CHECK(kit_same_bits(&occ_octree_nodes(a)[i], &occ_octree_nodes(b)[i], sizeof(occ_node)),
                   "node %u differs", i);
 }
 
 static bool same_array(const occ_array *a, const occ_array *b)
 {
     return a->count == b->count &&
-           (!a->count || !memcmp(a->data, b->data, (size_t)a->count * a->element));
+           (!a->count || kit_same_bits(a->data, b->data, (size_t)a->count * a->element));
 }
 
 void kit_check_same_scene(const occ_scene *a, const occ_scene *b)
@@ -254,7 +254,7 @@ void kit_check_same_scene(const occ_scene *a, const occ_scene *b)
     KIT_CHECK(same_array(&a->reach, &b->reach), "how far the occluders reach differs");
     for (uint32_t i = 0; i < a->boxes.count; i++) {
         occ_box x = occ_boxes_get(&a->boxes, i), y = occ_boxes_get(&b->boxes, i);
-        KIT_CHECK(!memcmp(&x, &y, sizeof x), "box %u differs", i);
+        KIT_CHECK(kit_same_bits(&x, &y, sizeof x), "box %u differs", i);
     }
 }
 

@@ -147,8 +147,8 @@ END_TEST
 // What an error of a call amounts to.
 static occ_result expected_of(const char *call, cl_int code)
 {
-    if (!strcmp(call, "clBuildProgram")) return OCC_ERROR_KERNEL_BUILD;
-    if (!strcmp(call, "clGetDeviceIDs")) return OCC_ERROR_NO_DEVICE;
+    if (strcmp(call, "clBuildProgram") == 0) return OCC_ERROR_KERNEL_BUILD;
+    if (strcmp(call, "clGetDeviceIDs") == 0) return OCC_ERROR_NO_DEVICE;
     bool memory = code == CL_OUT_OF_RESOURCES || code == CL_OUT_OF_HOST_MEMORY ||
                   code == CL_MEM_OBJECT_ALLOCATION_FAILURE;
     return memory ? OCC_ERROR_OUT_OF_MEMORY : OCC_ERROR_DEVICE;
@@ -157,7 +157,7 @@ static occ_result expected_of(const char *call, cl_int code)
 // Searching for a GPU may fail where any device will do.
 static bool may_fail(const char *call)
 {
-    return !strcmp(call, "clGetDeviceIDs");
+    return strcmp(call, "clGetDeviceIDs") == 0;
 }
 
 START_TEST(failed_call_while_a_view_is_made_is_reported)
@@ -187,6 +187,12 @@ START_TEST(failed_call_while_a_view_is_made_is_reported)
 }
 END_TEST
 
+// What fails with nothing left to do about it.
+static bool is_harmless(const char *call)
+{
+    return strcmp(call, "clReleaseMemObject") == 0 || strcmp(call, "clFinish") == 0;
+}
+
 // Culls; if a call fails on the way, says so once and then goes well.
 static void cull_with_fault(occ_view *view, uint32_t i)
 {
@@ -196,8 +202,7 @@ static void cull_with_fault(occ_view *view, uint32_t i)
     occ_result result = occ_cull(view, scene, &camera, NULL);
     KIT_CHECK(kit_cl_state.in_flight == 0, "%u commands are under way after %s",
               kit_cl_state.in_flight, occ_result_name(result));
-    if (kit_cl_state.failures > failures && strcmp(kit_cl_state.failed, "clReleaseMemObject") &&
-        strcmp(kit_cl_state.failed, "clFinish")) {
+    if (kit_cl_state.failures > failures && !is_harmless(kit_cl_state.failed)) {
         occ_result expected = expected_of(kit_cl_state.failed, kit_cl_state.code);
         KIT_CHECK(result == expected, "%s: %s", kit_cl_state.failed, occ_result_name(result));
         KIT_CHECK(record.errors && kit_logged(&record, kit_cl_state.failed) &&

@@ -8,11 +8,11 @@
 // The numbers as they were first given out. Lines may be added; none may change.
 #define RESULT(name, number)                                                                       \
     {                                                                                              \
-        name, #name, number                                                                        \
+#name, name, number                                                                        \
     }
 static const struct {
-    occ_result result;
     const char *name;
+    occ_result result;
     int number;
 } given_out[] = {
     RESULT(OCC_SUCCESS, 0),

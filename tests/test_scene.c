@@ -249,8 +249,8 @@ START_TEST(moved_occluder_has_its_new_box)
 {
     occ_occluder occluder = add_occluder(1, nobody);
     commit();
-    for (float x = 1; x < 1e6f; x *= 3) {
-        occ_box box = kit_cube(x, 2, 3, 0.1f), back;
+    for (int i = 1; i < 1000000; i *= 3) {
+        occ_box box = kit_cube((float)i, 2, 3, 0.1f), back;
         ck_assert_int_eq(occ_scene_move_occluder(scene, occluder, &box), OCC_SUCCESS);
         commit();
         ck_assert_int_eq(occ_scene_occluder_box(scene, occluder, &back, NULL), OCC_SUCCESS);

@@ -3,6 +3,7 @@
 #ifndef OCC_FUZZ_BYTES_H
 #define OCC_FUZZ_BYTES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,6 +25,11 @@ typedef struct fuzz_bytes {
     const uint8_t *data;
     size_t left;
 } fuzz_bytes;
+
+static inline bool fuzz_same_bits(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
 
 static inline void fuzz_take(fuzz_bytes *from, void *to, size_t size)
 {
