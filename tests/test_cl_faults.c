@@ -193,8 +193,8 @@ static bool is_harmless(const char *call)
     return strcmp(call, "clReleaseMemObject") == 0 || strcmp(call, "clFinish") == 0;
 }
 
-// Culls; if a call fails on the way, says so once and then goes well.
-static void cull_with_fault(occ_view *view, uint32_t i)
+// Culls; if a call fails on the way, says so.
+static void cull_with_fault_only(occ_view *view, uint32_t i)
 {
     occ_camera_desc camera = kit_path(i);
     kit_forget(&record);
@@ -213,6 +213,12 @@ static void cull_with_fault(occ_view *view, uint32_t i)
     } else {
         KIT_CHECK(!result, "%s though no call failed", occ_result_name(result));
     }
+}
+
+// The same, and then goes well.
+static void cull_with_fault(occ_view *view, uint32_t i)
+{
+    cull_with_fault_only(view, i);
     check_works(view, i);
 }
 
@@ -251,6 +257,30 @@ START_TEST(failed_call_in_a_cull_is_reported_and_the_next_goes_well)
     }
     ck_assert_uint_gt(n, 40);
     occ_view_destroy(view);
+}
+END_TEST
+
+START_TEST(failure_with_a_larger_scene_does_not_spoil_the_first)
+{
+    occ_scene *first = scene, *larger;
+    ck_assert_int_eq(occ_scene_create(NULL, &larger), OCC_SUCCESS);
+    kit_fill(larger, 3 * OBJECTS, 3, 5, NULL, NULL);
+    ck_assert_int_eq(occ_scene_commit(larger), OCC_SUCCESS);
+    for (uint64_t n = 1; n < 8; n++) { // the calls around the buffer of the boxes
+        occ_view *view;
+        ck_assert_int_eq(create(&view), OCC_SUCCESS);
+        check_works(view, 9); // the boxes of the first are on the device
+        kit_cl_reset();
+        kit_cl_state.fail_at = n;
+        kit_cl_state.code = CL_OUT_OF_RESOURCES;
+        scene = larger;
+        cull_with_fault_only(view, 9); // their buffer may be gone, or hold half of the others
+        scene = first;
+        check_works(view, 9);
+        ck_assert_uint_eq(kit_cl_state.failures, 1);
+        occ_view_destroy(view);
+    }
+    occ_scene_destroy(larger);
 }
 END_TEST
 
@@ -306,6 +336,7 @@ int main(void)
     tcase_add_checked_fixture(calls, set_up, tear_down);
     tcase_add_loop_test(calls, failed_call_while_a_view_is_made_is_reported, 0, CODES);
     tcase_add_loop_test(calls, failed_call_in_a_cull_is_reported_and_the_next_goes_well, 0, CODES);
+    tcase_add_test(calls, failure_with_a_larger_scene_does_not_spoil_the_first);
     tcase_add_test(calls, view_can_be_destroyed_after_any_failure);
     tcase_add_test(calls, scene_is_read_only_to_a_failing_device);
     suite_add_tcase(suite, calls);

@@ -77,6 +77,15 @@ static uint32_t row_of(uint32_t i)
     return scene->objects.value[occ_object_slot(objects[i])];
 }
 
+// How many runs of 1 there are.
+static unsigned runs_of(const unsigned char *rows)
+{
+    unsigned runs = 0;
+    for (uint32_t row = 0; row < OBJECTS; row++)
+        runs += rows[row] && (row == 0 || !rows[row - 1]);
+    return runs;
+}
+
 // Which rows the frame has sent, as 0 or 1 each.
 static void rows_sent(unsigned char *sent)
 {
@@ -114,6 +123,7 @@ START_TEST(small_moves_send_only_the_rows_around_them)
         frame(round);
         rows_sent(sent);
         ck_assert_mem_eq(sent, wanted, sizeof sent);
+        ck_assert_uint_eq(kit_cl_state.rows, runs_of(wanted)); // neighbours travel together
         ck_assert_uint_lt(kit_cl_state.whole_bytes, table_bytes(scene));
     }
 }

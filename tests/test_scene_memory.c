@@ -114,6 +114,27 @@ START_TEST(scene_with_as_many_occluders_stays_within_the_budget)
 }
 END_TEST
 
+START_TEST(scene_built_at_once_holds_little_more_than_its_tables)
+{
+    occ_object *objects = malloc(OBJECTS * sizeof *objects);
+    ck_assert_ptr_nonnull(objects);
+    occ_scene *scene = new_scene((how)_i, OBJECTS / 2);
+    fill(scene, (how)_i, OBJECTS / 2, objects);
+    occ_scene_stats stats;
+    ck_assert_int_eq(occ_scene_get_stats(scene, &stats), OCC_SUCCESS);
+    // A box, a slot's value and generation, and a place in the order for each; a node, and for
+    // the occluders its reach.
+    uint64_t item = sizeof(occ_box) + sizeof(uint32_t) + sizeof(uint16_t) + sizeof(uint32_t);
+    uint64_t tables = (stats.objects + stats.occluders) * item + sizeof *scene +
+                      stats.object_nodes * sizeof(occ_node) +
+                      stats.occluder_nodes * (sizeof(occ_node) + sizeof(float));
+    ck_assert_uint_ge(stats.bytes, tables);
+    ck_assert_uint_le(stats.bytes, tables + tables / 200);
+    occ_scene_destroy(scene);
+    free(objects);
+}
+END_TEST
+
 START_TEST(commit_gives_back_what_it_borrowed)
 {
     occ_scene *scene = new_scene(TOGETHER, 0);
@@ -159,6 +180,8 @@ int main(void)
     tcase_add_loop_test(budget, scene_with_half_as_many_occluders_stays_within_the_budget, 0, HOWS);
     // Grown one by one there may be an eighth of room to spare, which would not fit.
     tcase_add_loop_test(budget, scene_with_as_many_occluders_stays_within_the_budget, 0,
+                        ONE_BY_ONE);
+    tcase_add_loop_test(budget, scene_built_at_once_holds_little_more_than_its_tables, 0,
                         ONE_BY_ONE);
     suite_add_tcase(suite, budget);
     TCase *borrowed = tcase_create("borrowed");
