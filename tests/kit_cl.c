@@ -7,7 +7,9 @@ kit_cl kit_cl_state;
 
 void kit_cl_reset(void)
 {
-    kit_cl_state = (kit_cl){.live = kit_cl_state.live, .in_flight = kit_cl_state.in_flight};
+    kit_cl_state = (kit_cl){.live = kit_cl_state.live,
+                            .buffer_bytes = kit_cl_state.buffer_bytes,
+                            .in_flight = kit_cl_state.in_flight};
 }
 
 // Counts a call and says whether it is the one to fail.
@@ -72,7 +74,6 @@ WRAP_RELEASE(clReleaseContext, cl_context)
 WRAP_RELEASE(clReleaseCommandQueue, cl_command_queue)
 WRAP_RELEASE(clReleaseProgram, cl_program)
 WRAP_RELEASE(clReleaseKernel, cl_kernel)
-WRAP_RELEASE(clReleaseMemObject, cl_mem)
 WRAP_RETAIN(clRetainContext, cl_context)
 WRAP_RETAIN(clRetainCommandQueue, cl_command_queue)
 
@@ -87,9 +88,6 @@ WRAP_CREATE(cl_command_queue, clCreateCommandQueue,
             (context, device, properties, where))
 WRAP_CREATE(cl_kernel, clCreateKernel, (cl_program program, const char *name, cl_int *error),
             (program, name, where))
-WRAP_CREATE(cl_mem, clCreateBuffer,
-            (cl_context context, cl_mem_flags flags, size_t size, void *host, cl_int *error),
-            (context, flags, size, host, where))
 
 WRAP(clBuildProgram,
      (cl_program program, cl_uint count, const cl_device_id *devices, const char *options,
@@ -124,6 +122,28 @@ REAL(cl_program, clCreateProgramWithSource,
     }
     hold(*error);
     return made;
+}
+
+REAL(cl_mem, clCreateBuffer,
+     (cl_context context, cl_mem_flags flags, size_t size, void *host, cl_int *error))
+{
+    cl_mem made = NULL;
+    *error = kit_cl_state.code;
+    if (!fails("clCreateBuffer")) made = __real_clCreateBuffer(context, flags, size, host, error);
+    hold(*error);
+    if (made) kit_cl_state.buffer_bytes += size;
+    return made;
+}
+
+REAL(cl_int, clReleaseMemObject, (cl_mem buffer))
+{
+    bool failed = fails("clReleaseMemObject");
+    size_t size = 0;
+    ck_assert_int_eq(clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof size, &size, NULL), CL_SUCCESS);
+    cl_int error = __real_clReleaseMemObject(buffer);
+    kit_cl_state.live -= error == CL_SUCCESS;
+    kit_cl_state.buffer_bytes -= size;
+    return failed ? kit_cl_state.code : error;
 }
 
 // --- what there is -------------------------------------------------------------------------------

@@ -29,10 +29,11 @@ typedef struct kit_cl {
     uint64_t calls;
     const char *failed; // the call that failed
     unsigned failures;
-    int64_t live;       // contexts, queues, programs, kernels and buffers held, counting references
-    unsigned created;   // of them
-    unsigned in_flight; // enqueued since the queue was last waited for
-    unsigned whole;     // writes of whole buffers
+    int64_t live; // contexts, queues, programs, kernels and buffers held, counting references
+    uint64_t buffer_bytes; // of the buffers held
+    unsigned created;      // of them
+    unsigned in_flight;    // enqueued since the queue was last waited for
+    unsigned whole;        // writes of whole buffers
     uint64_t whole_bytes;
     unsigned rows; // writes of rows
     kit_cl_send row[KIT_CL_SENDS];

@@ -119,6 +119,9 @@ START_TEST(small_moves_send_only_the_rows_around_them)
                 wanted[row] = 1;
         }
         ck_assert(!scene->objects_reordered); // else the test has moved too far
+        if (round % 2) {                      // the occluders' order is no matter of the rows
+            ck_assert_int_eq(occ_scene_remove_occluder(scene, occluders[round]), OCC_SUCCESS);
+        }
         commit();
         frame(round);
         rows_sent(sent);
@@ -218,6 +221,26 @@ START_TEST(frame_after_warm_up_makes_no_buffer)
     }
     ck_assert_int_eq(occ_view_get_stats(device, &after), OCC_SUCCESS);
     ck_assert_uint_eq(after.device_bytes, before.device_bytes);
+}
+END_TEST
+
+START_TEST(device_bytes_are_those_of_the_buffers)
+{
+    occ_scene *mine = scene;
+    for (uint32_t count = 50; count < 12000; count *= 3) { // the buffers grow
+        ck_assert_int_eq(occ_scene_create(NULL, &scene), OCC_SUCCESS);
+        kit_fill(scene, count, 4, count, NULL, NULL);
+        commit();
+        for (uint32_t i = 0; i < 4; i++) {
+            occ_view_stats stats;
+            frame(i);
+            ck_assert_int_eq(occ_view_get_stats(device, &stats), OCC_SUCCESS);
+            ck_assert_uint_gt(stats.device_bytes, table_bytes(scene));
+            ck_assert_uint_eq(stats.device_bytes, kit_cl_state.buffer_bytes);
+        }
+        occ_scene_destroy(scene);
+    }
+    scene = mine;
 }
 END_TEST
 
@@ -331,6 +354,7 @@ int main(void)
     TCase *frames = tcase_create("frames");
     tcase_add_checked_fixture(frames, set_up, tear_down);
     tcase_add_test(frames, frame_after_warm_up_makes_no_buffer);
+    tcase_add_test(frames, device_bytes_are_those_of_the_buffers);
     tcase_add_test(frames, nothing_is_under_way_after_a_frame_that_looks_away);
     tcase_add_test(frames, empty_scene_is_no_trouble);
     suite_add_tcase(suite, frames);
