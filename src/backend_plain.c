@@ -2,16 +2,13 @@
 // The reference: one object after the other, in scalar C, straight from verdict.h.
 #include "backend.h"
 
+#include "box.h"
+
 static uint32_t verdict_of(const occ_test_job *job, const occ_range *range, uint32_t row)
 {
     const occ_box box = occ_boxes_get(&job->scene->boxes, row);
     const occ_eye *eye = job->eye;
-    occ_relative_box relative;
-    for (int j = 0; j < 3; j++)
-        relative.t[j] = OCC_RELATIVE(box.center[j], eye->high[j], eye->low[j]);
-    for (int k = 0; k < 9; k++)
-        relative.a[k] = box.axis[k / 3][k % 3];
-    relative.e = occ_box_slack(&relative, eye->slack_floor);
+    occ_relative_box relative = occ_box_relative(&box, eye);
     if (occ_box_outside(&relative, eye->plane[0], range->frustum)) return OCC_OUTSIDE;
     for (uint32_t c = 0; c < range->candidate_count; c++) {
         const occ_shadow *shadow = &job->shadows[job->candidates[range->candidates + c]];

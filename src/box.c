@@ -32,6 +32,17 @@ void occ_box_bounds(const occ_box *box, float min[3], float max[3])
     }
 }
 
+occ_relative_box occ_box_relative(const occ_box *box, const occ_eye *eye)
+{
+    occ_relative_box relative;
+    for (int j = 0; j < 3; j++)
+        relative.t[j] = OCC_RELATIVE(box->center[j], eye->high[j], eye->low[j]);
+    for (int k = 0; k < 9; k++)
+        relative.a[k] = box->axis[k / 3][k % 3];
+    relative.e = occ_box_slack(&relative, eye->slack_floor);
+    return relative;
+}
+
 // Center and half size of [min, max], outward.
 static void set_interval(double min, double max, float *center, float *half)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame.h"
 
+#include "box.h"
+
 void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
 {
     *frame = (occ_frame){.hooks = hooks, .lanes = lanes};
@@ -26,12 +28,5 @@ void occ_frame_free(occ_frame *frame)
 
 occ_relative_box occ_frame_relative(const occ_frame *frame, const occ_box *box)
 {
-    const occ_eye *eye = &frame->camera.constants;
-    occ_relative_box relative;
-    for (int j = 0; j < 3; j++)
-        relative.t[j] = OCC_RELATIVE(box->center[j], eye->high[j], eye->low[j]);
-    for (int k = 0; k < 9; k++)
-        relative.a[k] = box->axis[k / 3][k % 3];
-    relative.e = occ_box_slack(&relative, eye->slack_floor);
-    return relative;
+    return occ_box_relative(box, &frame->camera.constants);
 }
