@@ -6,8 +6,8 @@
 // most six roundings in a row, each of which loses no more than a factor of 1 - u, and times 1 +
 // 2^-50 makes up for eight. DBL_MIN covers all that may underflow in between. Infinities and NaN
 // make a sign unsure, since nothing compares above them.
-#ifndef OCC_TEST_JUDGE_NUM_H
-#define OCC_TEST_JUDGE_NUM_H
+#ifndef OCC_JUDGE_NUM_H
+#define OCC_JUDGE_NUM_H
 
 #include <float.h>
 #include <math.h>

@@ -6,8 +6,8 @@
 //
 // judge_camera.c makes a judge; judge_body.c turns boxes into half-spaces, judge_shadow.c these
 // into shadows; judge_piece.c cuts polygons; judge.c and judge_single.c answer.
-#ifndef OCC_TEST_JUDGE_DATA_H
-#define OCC_TEST_JUDGE_DATA_H
+#ifndef OCC_JUDGE_DATA_H
+#define OCC_JUDGE_DATA_H
 
 #include "exact.h"
 #include "judge.h"

@@ -15,8 +15,8 @@
 // and with a positive length on a segment. A solid of which the clip planes leave no volume, a
 // sheet of which they leave no area and a segment of which they leave no length is outside. A solid
 // that holds the eye is seen.
-#ifndef OCC_TEST_JUDGE_H
-#define OCC_TEST_JUDGE_H
+#ifndef OCC_JUDGE_H
+#define OCC_JUDGE_H
 
 #include <occlude/cull.h>
 

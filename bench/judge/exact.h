@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of integers without bound, in a unit of 2^-places: what the oracle computes with.
-#ifndef OCC_TEST_EXACT_H
-#define OCC_TEST_EXACT_H
+// Vectors of integers without bound, in a unit of 2^-places: what the judge and the oracle
+// compute with.
+#ifndef OCC_JUDGE_EXACT_H
+#define OCC_JUDGE_EXACT_H
 
 #include <gmp.h>
 #include <math.h>
