@@ -176,8 +176,9 @@ static void check_frusta(uint64_t seed, bool given, tally *sum)
         occ_camera_desc desc =
             skewed ? world_skewed_camera(&random, reach) : random_camera(&random, reach);
         const double point[3] = {reach + 1e-9, -reach / 3.0, 12.5};
+        const double distant[3] = {1e7 / 3.0, -2e7, 3e7 + 1e-9};
         if (given) desc.eye = point;
-        if (!given && kit_below(&random, 3) == 0) desc.origin = point;
+        if (!given && kit_below(&random, 2)) desc.origin = i % 2 ? point : distant;
         occ_camera camera;
         const char *reason;
         if (occ_camera_init(&camera, &desc, &reason)) continue;
@@ -388,6 +389,8 @@ START_TEST(no_silhouette_of_a_derived_eye_holds_the_exact_one)
     for (int i = 0; i < WORLD_SHARE(1500); i++) {
         double reach = world_scale(&random, 1e-3, 1e5), center[3], aside[3];
         occ_camera_desc desc = world_skewed_camera(&random, reach);
+        const double origin[3] = {1e7 / 3.0, -2e7, 3e7 + 1e-9};
+        if (kit_below(&random, 2)) desc.origin = origin;
         occ_frame frame = {.hooks = NULL};
         const char *reason;
         if (occ_camera_init(&frame.camera, &desc, &reason)) continue;
