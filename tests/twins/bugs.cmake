@@ -82,7 +82,7 @@ set(past_near "point [0-9]+ of object [0-9]+ can be seen")
 occ_plant(no_near_plane ${in_shadow} REPLACE "if (!survives_near(&s, camera, seen)) return false"
     BY "(void)survives_near(&s, camera, seen)")
 occ_caught_by(no_near_plane near "at random" "${past_near}")
-occ_plant(no_near_reach ${in_shadow} REPLACE "cutter[3] - reach > size" BY "cutter[3] > size")
+occ_plant(no_near_reach ${in_shadow} REPLACE "cutter[3] - reach > size" BY "cutter[3] - 0.0 * reach > size")
 occ_caught_by(no_near_reach near "at random" "${past_near}")
 occ_plant(no_near_corner ${in_shadow} REPLACE "int c = 0; c < 4; c++" BY "int c = 0; c < 3; c++")
 occ_caught_by(no_near_corner near "at random" "${past_near}")
