@@ -3,7 +3,7 @@
 
 set(can_be_seen "duel [0-9]+: hidden, but it can be seen")
 set(decided_otherwise "range [0-9]+ is decided otherwise")
-set(wrong_side "the offset [-+.0-9a-fpx]+ is on the wrong side")
+set(frustum_plane "frustum plane [0-5]: the offset [-+.0-9a-fpx]+ is too far")
 set(in_kernels IN kernels/geometry.h)
 set(in_shadow IN src/shadow.c COMPILE shadow.c)
 set(in_camera IN src/camera.c COMPILE camera.c)
@@ -33,17 +33,17 @@ occ_caught_by(no_floor shadow "by hand" "${can_be_seen}" COMPILED)
 # The bounds of set-up: what a plane is moved by, what its offset and its eye may be off by, and
 # when a face counts as seen.
 occ_plant(not_inward ${in_shadow} REPLACE "inward - fabs(inward) * 0x1p-21" BY "inward")
-occ_caught_by(not_inward planes shadows "a face: ${wrong_side}")
+occ_caught_by(not_inward shadow_planes exact "inward by [-+.0-9e]+ u.d.")
 occ_plant(no_offset_error ${in_shadow} REPLACE "(d - d_error) * scale" BY "(d - 0.0 * d_error) * scale")
-occ_caught_by(no_offset_error planes shadows "a face: ${wrong_side}")
+occ_caught_by(no_offset_error shadow_planes exact "inward by [-+.0-9e]+ u.d.")
 occ_plant(no_eye_doubt ${in_shadow} REPLACE "8.0 * EPS * occ_dot_magnitude(n, camera->doubt)" BY "0.0")
-occ_caught_by(no_eye_doubt planes shadows "camera [0-9]+: silhouette [0-9]+ holds the eye")
+occ_caught_by(no_eye_doubt camera_planes silhouettes "camera [0-9]+: silhouette [0-9]+ holds the eye")
 occ_plant(no_origin_doubt ${in_camera} REPLACE "camera->doubt[j] += fabs(camera->eye[j])" BY "camera->doubt[j] += 0.0")
-occ_caught_by(no_origin_doubt planes frusta "a frustum plane: ${wrong_side}")
+occ_caught_by(no_origin_doubt camera_planes frusta "${frustum_plane} inward")
 occ_plant(no_sight_error ${in_shadow} REPLACE "!(margin > error)" BY "!(margin > 0.0 * error)")
 occ_caught_by(no_sight_error shadow "by hand" "Assertion 'oracle_box[^']* == ORACLE_HIDDEN' failed")
 occ_plant(no_plane_error ${in_camera} REPLACE "(d + error) * scale" BY "(d + 0.0 * error) * scale")
-occ_caught_by(no_plane_error planes frusta "a frustum plane: ${wrong_side}")
+occ_caught_by(no_plane_error camera_planes frusta "${frustum_plane} inward")
 occ_plant(no_low_half ${in_camera} REPLACE "(float)(camera->eye[j] - (double)high)" BY "0.0f * high")
 occ_caught_by(no_low_half camera eyes "Assertion 'fabs.pair - eye.j.. <=")
 
@@ -71,7 +71,7 @@ occ_caught_by(swapped_side shadow "by hand" "Assertion 'hides_from.5, 0, 0, &she
 occ_plant(grown ${in_shadow} REPLACE "s->axis[k][j] = (double)box->axis[k][j]"
     BY "s->axis[k][j] = (double)box->axis[k][j] * 1.000001")
 occ_caught_by(grown shadow "by hand" "Assertion 'hides_from.1001, 0, 0, &wall, &by_its_face. ==")
-occ_caught_by(grown planes shadows "silhouette [0-9]+ is in no edge")
+occ_caught_by(grown shadow_planes exact "a normal is off by [.0-9]+ u")
 
 # --- a missing test of near faces, edges, or what the near plane cuts away -----------------------
 occ_plant(no_faces ${in_shadow} REPLACE "seen[k].sign && !add_face" BY "seen[k].sign > 1 && !add_face")
@@ -91,9 +91,9 @@ occ_caught_by(no_near_corner near "at random" "${past_near}")
 # Towards the middle, where it loses objects, and away from it.
 set(outward "occ_round_up(wide + fabs(wide) * 0x1p-21)")
 occ_plant(plane_inward ${in_camera} REPLACE "${outward}" BY "nextafterf(${outward}, -1e38f)")
-occ_caught_by(plane_inward planes frusta "a frustum plane: ${wrong_side}")
+occ_caught_by(plane_inward camera_planes frusta "${frustum_plane} inward")
 occ_plant(plane_outward ${in_camera} REPLACE "${outward}" BY "nextafterf(${outward}, 1e38f)")
-occ_caught_by(plane_outward planes frusta "a frustum plane: the offset [-+.0-9a-fpx]+ is moved too far")
+occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
 
 # --- an object hidden by what it owns ------------------------------------------------------------
 set(own "if (shadow->owner == row) continue;")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: unit property oracle
-// The planes that set-up leaves in floats, against the exact ones: each is on its safe side by the
-// 8u|d| that docs/accuracy.md promises, and by no more than set-up may have rounded. Verdicts
-// cannot show that, since their own bound would cover for a plane that is off by an ulp.
+// The planes that depend on the camera alone, against the exact ones: each of the frustum is the
+// next float outward, and no silhouette takes the eye for another. Verdicts cannot show that, since
+// their own bound would cover for a plane that is off by an ulp.
 #include "oracle_data.h"
 
 #include "shadow.h"
@@ -60,13 +60,13 @@ typedef struct tally {
 
 // An offset was lowered from `exact` if it is not above the moved one but the next float is, when
 // the slack is added. It is sharp if that needs no slack: one float up or down would be noticed.
-static void check_lowered(float offset, double slack, tally *sum, const char *what)
+static void check_lowered(float offset, double slack, uint32_t p, tally *sum)
 {
     float above = nextafterf(offset, INFINITY);
-    KIT_CHECK(compare_moved(offset, 0.0) <= 0, "%s: the offset %a is on the wrong side", what,
-              (double)offset);
-    KIT_CHECK(compare_moved(above, slack) > 0, "%s: the offset %a is moved too far", what,
-              (double)offset);
+    KIT_CHECK(compare_moved(offset, 0.0) <= 0, "frustum plane %u: the offset %a is too far inward",
+              p, (double)-offset);
+    KIT_CHECK(compare_moved(above, slack) > 0, "frustum plane %u: the offset %a is too far outward",
+              p, (double)-offset);
     sum->planes++;
     sum->sharp += compare_moved(above, 0.0) > 0;
 }
@@ -146,7 +146,7 @@ static void check_frustum(const occ_camera *camera, const occ_camera_desc *desc,
         mpq_neg(exact, exact); // outward is up
         bool through_eye = desc->eye && !camera->orthographic && p < OCC_NEAR_PLANE;
         double slack = through_eye ? 0.0 : frustum_slack(&own, desc, p);
-        check_lowered(-plane[3], slack, sum, "a frustum plane");
+        check_lowered(-plane[3], slack, p, sum);
     }
     oracle_free(o);
 }
@@ -205,166 +205,7 @@ START_TEST(planes_of_a_derived_eye_are_outward_by_no_more_than_may_be_lost)
 }
 END_TEST
 
-// --- shadows -------------------------------------------------------------------------------------
-
-// An occluder relative to the eye, in units of 2^-places.
-typedef struct solid {
-    long places;
-    exact3 center, axis[3], normal[3];
-    mpz_t distance[3]; // from the eye to the nearer face of each pair, in lengths of its normal
-    int side[3];       // the sign of the way to it along the normal; 0: the eye is between the two
-    unsigned seen;
-    double size[3];
-} solid;
-
-static void solid_init(solid *s, oracle *o, const double eye[3], const occ_box *box)
-{
-    mpz_t reach;
-    mpz_init(reach);
-    *s = (solid){.places = o->places};
-    exact_init(s->center, 3);
-    exact_init(s->distance, 3);
-    for (int k = 0; k < 3; k++) {
-        exact_init(s->axis[k], 3);
-        exact_init(s->normal[k], 3);
-    }
-    for (int j = 0; j < 3; j++) {
-        exact_set(s->center[j], (double)box->center[j], s->places);
-        mpz_sub(s->center[j], s->center[j], o->e[j]);
-        s->size[j] = fabs((double)box->center[j] - eye[j]);
-        for (int k = 0; k < 3; k++) {
-            exact_set(s->axis[k][j], (double)box->axis[k][j], s->places);
-            s->size[j] += fabs((double)box->axis[k][j]);
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        exact_cross(s->normal[k], s->axis[(k + 1) % 3], s->axis[(k + 2) % 3]);
-        exact_dot(s->distance[k], s->normal[k], s->center);
-        exact_dot(reach, s->normal[k], s->axis[k]);
-        s->side[k] = mpz_cmpabs(s->distance[k], reach) > 0 ? mpz_sgn(s->distance[k]) : 0;
-        s->seen += s->side[k] != 0;
-        mpz_abs(s->distance[k], s->distance[k]);
-        mpz_abs(reach, reach);
-        mpz_sub(s->distance[k], s->distance[k], reach);
-    }
-    mpz_clear(reach);
-}
-
-static void solid_clear(solid *s)
-{
-    exact_clear(s->center, 3);
-    exact_clear(s->distance, 3);
-    for (int k = 0; k < 3; k++) {
-        exact_clear(s->axis[k], 3);
-        exact_clear(s->normal[k], 3);
-    }
-}
-
-// The plane of the face of pair k that the eye sees: behind it is inside.
-static void check_face(solid *s, int k, const float plane[4], tally *sum)
-{
-    long unit;
-    double slack = 0.0;
-    for (int j = 0; j < 3; j++) {
-        if (s->side[k] < 0) mpz_neg(s->normal[k][j], s->normal[k][j]);
-        slack += fabs((double)plane[j]) * s->size[j];
-    }
-    KIT_CHECK(has_normal(plane, s->normal[k], &unit), "the normal of face %d is off", k);
-    set_fraction(exact, s->distance[k], NULL, s->places + unit);
-    mpq_neg(exact, exact);
-    check_lowered(plane[3], slack * 0x1p-47, sum, "a face");
-}
-
-// A plane through the eye and one of the twelve edges.
-static bool goes_through_an_edge(solid *s, const float plane[4])
-{
-    exact3 corner, n;
-    bool found = false;
-    exact_init(corner, 3);
-    exact_init(n, 3);
-    for (int i = 0; i < 24 && !found; i++) {
-        int along = i / 8;
-        for (int j = 0; j < 3; j++) {
-            mpz_set(corner[j], s->center[j]);
-            for (int e = 0; e < 2; e++)
-                (i >> e & 1 ? mpz_add : mpz_sub)(corner[j], corner[j],
-                                                 s->axis[(along + 1 + e) % 3][j]);
-        }
-        exact_cross(n, corner, s->axis[along]);
-        for (int j = 0; j < 3 && i & 4; j++)
-            mpz_neg(n[j], n[j]);
-        long unit;
-        found = !exact_is_zero(n) && has_normal(plane, n, &unit);
-    }
-    exact_clear(corner, 3);
-    exact_clear(n, 3);
-    return found;
-}
-
-// False where the library left out a face that it could not be certain of.
-static bool check_shadow(const occ_shadow *shadow, solid *s, tally *sum)
-{
-    static const unsigned planes_of[] = {0, 5, 8, 9};
-    if (shadow->planes != planes_of[s->seen]) return false;
-    uint32_t p = 0;
-    for (; p < shadow->planes - s->seen; p++) {
-        KIT_CHECK(goes_through_an_edge(s, shadow->plane[p]), "silhouette %u is in no edge", p);
-        KIT_CHECK(shadow->plane[p][3] == 0.0f, "silhouette %u is not in the eye", p);
-    }
-    for (int k = 0; k < 3; k++)
-        if (s->side[k]) check_face(s, k, shadow->plane[p++], sum);
-    return true;
-}
-
-// An eye beside a box, and now and then next to the plane of one of its faces, where the terms of
-// an offset cancel.
-static void random_eye(kit_random *random, const occ_box *box, double size, double eye[3])
-{
-    double aside[3];
-    world_direction(random, aside);
-    double away = size * world_scale(random, 0.1, 100);
-    int k = (int)kit_below(random, 3);
-    bool near = kit_below(random, 3) == 0;
-    double beyond = 1.0 + world_scale(random, 1e-14, 1);
-    for (int j = 0; j < 3; j++) {
-        eye[j] = (double)box->center[j] + away * aside[j];
-        if (near) {
-            eye[j] = (double)box->center[j] + beyond * (double)box->axis[k][j] +
-                     3.3 * (double)box->axis[(k + 1) % 3][j] +
-                     world_between(random, -1, 1) * (double)box->axis[(k + 2) % 3][j];
-        }
-    }
-}
-
-START_TEST(planes_of_a_shadow_are_the_next_floats_inward)
-{
-    kit_random random = {3};
-    tally sum = {0, 0};
-    unsigned tried = 0, checked = 0;
-    for (int i = 0; i < WORLD_SHARE(6000); i++) {
-        double size = world_scale(&random, 1e-6, 1e6), center[3], eye[3];
-        for (int j = 0; j < 3; j++)
-            center[j] = world_between(&random, -1, 1) * size * world_scale(&random, 1e-3, 1e3);
-        world_shape shape = (world_shape)kit_below(&random, WORLD_SHEET + 1);
-        occ_box box = world_box(&random, shape, center, size);
-        random_eye(&random, &box, size, eye);
-        occ_frame frame = verdict_frame_at(eye);
-        occ_shadow shadow;
-        if (!occ_shadow_init(&shadow, &frame.camera, &box, OCC_NOBODY)) continue;
-        oracle *o = oracle_of_eye(eye);
-        solid s;
-        solid_init(&s, o, eye, &box);
-        tried++;
-        checked += check_shadow(&shadow, &s, &sum);
-        solid_clear(&s);
-        oracle_free(o);
-    }
-    printf("%u shadows, %u faces, %u of them known to the float\n", checked, sum.planes, sum.sharp);
-    ck_assert_uint_gt(checked, WORLD_SHARE(4000));
-    ck_assert_uint_gt(checked, tried - tried / 50);
-    ck_assert_uint_gt(sum.sharp, sum.planes / 2);
-}
-END_TEST
+// --- silhouettes ---------------------------------------------------------------------------------
 
 // Of a plane through `eye`: sets `exact` and returns its sign.
 static int value_at_exact_eye(oracle *o, const double eye[3], const float plane[4])
@@ -420,16 +261,15 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("planes");
+    Suite *suite = suite_create("camera planes");
     TCase *frusta = tcase_create("frusta");
     tcase_add_checked_fixture(frusta, begin, end);
     tcase_add_test(frusta, planes_of_a_given_eye_are_the_next_floats_outward);
     tcase_add_test(frusta, planes_of_a_derived_eye_are_outward_by_no_more_than_may_be_lost);
     suite_add_tcase(suite, frusta);
-    TCase *shadows = tcase_create("shadows");
-    tcase_add_checked_fixture(shadows, begin, end);
-    tcase_add_test(shadows, planes_of_a_shadow_are_the_next_floats_inward);
-    tcase_add_test(shadows, no_silhouette_of_a_derived_eye_holds_the_exact_one);
-    suite_add_tcase(suite, shadows);
+    TCase *silhouettes = tcase_create("silhouettes");
+    tcase_add_checked_fixture(silhouettes, begin, end);
+    tcase_add_test(silhouettes, no_silhouette_of_a_derived_eye_holds_the_exact_one);
+    suite_add_tcase(suite, silhouettes);
     return test_run_suite(suite);
 }
