@@ -271,38 +271,45 @@ static double least_w_of(const glb_camera *c, const occ_box *box)
     return 1e-6 * most;
 }
 
-bool glb_is_open(const glb_camera *c, const occ_box *box)
+static const double near_plane[5] = {0, 0, -1, 1, 0}, far_plane[5] = {0, 0, 1, 0, 0};
+
+static bool holds_eye(const glb_camera *c, const occ_box *box)
 {
     solid s;
-    if (c->eye[3] == 0.0) return false;
-    double least_w = least_w_of(c, box), to_eye[3];
-    for (int face = 0; face < 6; face++) {
-        polygon p = face_of(c, box, face, least_w);
-        for (int i = 0; i < p.count; i++)
-            if (p.corner[i][W] < 2.0 * least_w) return true;
-    }
-    if (!solid_of(box, &s)) return false;
+    double to_eye[3], normal[3];
+    if (c->eye[3] == 0.0 || !solid_of(box, &s)) return false;
     for (int j = 0; j < 3; j++)
         to_eye[j] = c->eye[j] - (double)box->center[j];
     for (int k = 0; k < 3; k++) {
-        double normal[3];
         cross(s.axis[(k + 1) % 3], s.axis[(k + 2) % 3], normal);
-        if (fabs(dot(normal, to_eye)) > fabs(dot(normal, s.axis[k])) * (1.0 + 1e-6)) return false;
+        double end = k == s.flat ? 0.0 : fabs(dot(normal, s.axis[k]));
+        if (fabs(dot(normal, to_eye)) > end + 1e-6 * length(normal) * length(s.axis[k]))
+            return false;
     }
     return true;
 }
 
-static const double near_plane[5] = {0, 0, -1, 1, 0}, far_plane[5] = {0, 0, 1, 0, 0};
-
-bool glb_is_before_near(const glb_camera *c, const occ_box *box)
+// Whether some of a face that the frustum leaves is on the far side of a plane.
+static bool is_cut(const glb_camera *c, const occ_box *box, const double plane[5])
 {
-    for (unsigned i = 0; i < 8; i++) {
-        double at[3], clip[4];
-        corner_of(box, i, at);
-        to_clip(c, at, clip);
-        if (value(near_plane, clip) < 0.0) return true;
+    double least_w = least_w_of(c, box);
+    for (int face = 0; face < 6; face++) {
+        polygon p = face_of(c, box, face, least_w);
+        for (int i = 0; i < p.count; i++)
+            if (value(plane, p.corner[i]) < 0.0) return true;
     }
-    return false;
+    return holds_eye(c, box);
+}
+
+bool glb_is_open(const glb_camera *c, const occ_box *box)
+{
+    const double ahead[5] = {0, 0, 0, 1, -2.0 * least_w_of(c, box)};
+    return c->eye[3] != 0.0 && is_cut(c, box, ahead);
+}
+
+bool glb_is_cut_by_near(const glb_camera *c, const occ_box *box)
+{
+    return is_cut(c, box, near_plane);
 }
 
 // --- triangles -----------------------------------------------------------------------------------

@@ -50,8 +50,8 @@ bool glb_grow(const glb_camera *camera, const occ_box *box, double pixels, occ_b
 // Whether the box comes too close to the eye to be drawn closed.
 bool glb_is_open(const glb_camera *camera, const occ_box *box);
 
-// Whether some of the box is before the near plane.
-bool glb_is_before_near(const glb_camera *camera, const occ_box *box);
+// Whether the near plane cuts the box open where that can be seen.
+bool glb_is_cut_by_near(const glb_camera *camera, const occ_box *box);
 
 typedef enum glb_manner { GLB_SPARING, GLB_GENEROUS } glb_manner;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Occlusion queries of OpenGL without a window: boxes are drawn into a depth buffer, others are
-// drawn against it, and the samples that pass are counted. Nothing here is shared with the library.
+// Occlusion queries of OpenGL without a window: occluders are drawn into depth buffers, objects are
+// drawn against them, and the samples that pass are counted. Since an object is not hidden by its
+// own occluders there are two depths: the nearest, and the nearest of another owner.
+// Nothing here is shared with the library.
 // OpenGL may start threads: open it in a test, never before Check forks.
 #ifndef OCC_TEST_GL_QUERIES_H
 #define OCC_TEST_GL_QUERIES_H
@@ -33,12 +35,15 @@ typedef struct glq_rect {
 // The frustum, less so many pixels at each of its sides.
 glq_rect glq_frustum(const glb_camera *camera, int inset);
 
-// A depth buffer with nothing but these boxes in it, as far as the rectangle goes.
+// Takes these occluders, and no others, as far as the rectangle goes. owners[i] is the number of
+// the object that is not hidden by box i, or GLQ_NOBODY; NULL: all are nobody's.
+#define GLQ_NOBODY UINT32_MAX
 void glq_occlude(gl_queries *q, const glb_camera *camera, const glq_rect *rect,
-                 const occ_box *boxes, size_t count, glb_manner manner);
+                 const occ_box *boxes, const uint32_t *owners, size_t count, glb_manner manner);
 
-// For each box, the samples of the rectangle where it is nearer than what glq_occlude() drew.
+// For each box, the samples of the rectangle where it is nearer than what glq_occlude() took.
+// numbers[i] is the number of box i among owners; NULL: i.
 void glq_count(gl_queries *q, const glb_camera *camera, const glq_rect *rect, const occ_box *boxes,
-               size_t count, glb_manner manner, uint32_t *samples);
+               const uint32_t *numbers, size_t count, glb_manner manner, uint32_t *samples);
 
 #endif

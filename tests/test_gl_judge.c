@@ -27,7 +27,8 @@ typedef struct gl_world {
     glb_camera view;
     world_projection projection;
     double eye[3];
-    int occluder_count, owners[MOST_OCCLUDERS];
+    int occluder_count;
+    uint32_t owners[MOST_OCCLUDERS];
     occ_box occluders[MOST_OCCLUDERS], grown[MOST_OCCLUDERS], objects[OBJECTS];
 } gl_world;
 
@@ -50,7 +51,7 @@ static void point_camera(kit_random *random, const gl_queries *q, gl_world *w)
 }
 
 // Nothing is said of an occluder next to the eye, nor of one without area.
-static bool add_occluder(gl_world *w, const occ_box *box, int owner)
+static bool add_occluder(gl_world *w, const occ_box *box, uint32_t owner)
 {
     occ_box grown;
     if (w->occluder_count == MOST_OCCLUDERS ||
@@ -95,7 +96,7 @@ static void make_scattered(kit_random *random, const gl_queries *q, gl_world *w)
     int count = 4 + (int)kit_below(random, 12);
     for (int i = 0; i < count; i++) {
         occ_box box = any_box(random, 3, world_between(random, 0.5, 4));
-        add_occluder(w, &box, -1);
+        add_occluder(w, &box, GLQ_NOBODY);
     }
     for (int i = 0; i < OBJECTS; i++) {
         w->objects[i] = any_box(random, 3, world_scale(random, 0.1, 3));
@@ -103,7 +104,7 @@ static void make_scattered(kit_random *random, const gl_queries *q, gl_world *w)
         occ_box inside = w->objects[i];
         for (int k = 0; k < 9; k++)
             inside.axis[k / 3][k % 3] *= 0.75f;
-        if (i % 4 == 0) add_occluder(w, &inside, i);
+        if (i % 4 == 0) add_occluder(w, &inside, (uint32_t)i);
     }
 }
 
@@ -135,7 +136,7 @@ static void make_grid(kit_random *random, const gl_queries *q, gl_world *w)
     point_camera(random, q, w);
     for (int i = 0; i < 16; i++) {
         occ_box box = grid_box(random, 3, 4);
-        add_occluder(w, &box, -1);
+        add_occluder(w, &box, GLQ_NOBODY);
     }
     for (int i = 0; i < OBJECTS; i++) {
         occ_box larger; // there is nothing to be counted of what has no area
@@ -167,7 +168,7 @@ static void make_wall(kit_random *random, const gl_queries *q, gl_world *w)
                 panel.center[j] += at * whole.axis[k][j];
                 panel.axis[k][j] *= (aligned ? 1.0f : 1.001f) / (float)across;
             }
-        if (i != missing) add_occluder(w, &panel, -1);
+        if (i != missing) add_occluder(w, &panel, GLQ_NOBODY);
     }
     for (int i = 0; i < OBJECTS; i++) {
         w->objects[i] = any_box(random, 1.5, world_scale(random, 0.1, 2));
@@ -181,7 +182,7 @@ static void make_intimate(kit_random *random, const gl_queries *q, gl_world *w)
     make_scattered(random, q, w);
     for (int i = 0; i < OBJECTS && w->occluder_count > 0; i++) {
         int from = (int)kit_below(random, (uint32_t)w->occluder_count);
-        w->owners[from] = -1;
+        w->owners[from] = GLQ_NOBODY;
         occ_box *object = &w->objects[i];
         *object = w->occluders[from];
         uint32_t k = kit_below(random, 3);
@@ -216,8 +217,7 @@ static const char *contradiction(const gl_verdict *v)
 }
 
 // Counts generously at the pixel in the middle of which a point is.
-static uint32_t count_at(gl_queries *q, const gl_world *w, const double point[3],
-                         const occ_box *occluders, size_t count, const occ_box *object)
+static uint32_t count_at(gl_queries *q, const gl_world *w, const double point[3], uint32_t number)
 {
     glb_camera view = w->view;
     double at[2];
@@ -226,9 +226,17 @@ static uint32_t count_at(gl_queries *q, const gl_world *w, const double point[3]
         view.shift[r] += floor(at[r]) + 0.5 - at[r];
     glq_rect pixel = {(int)floor(at[0]), (int)floor(at[1]), 1, 1};
     uint32_t samples;
-    glq_occlude(q, &view, &pixel, occluders, count, GLB_SPARING);
-    glq_count(q, &view, &pixel, object, 1, GLB_GENEROUS, &samples);
+    glq_occlude(q, &view, &pixel, w->occluders, w->owners, (size_t)w->occluder_count, GLB_SPARING);
+    glq_count(q, &view, &pixel, &w->objects[number], &number, 1, GLB_GENEROUS, &samples);
     return samples;
+}
+
+static void set_occluders(judge *j, const gl_world *w, const occ_box *boxes)
+{
+    int owners[MOST_OCCLUDERS];
+    for (int i = 0; i < w->occluder_count; i++)
+        owners[i] = w->owners[i] == GLQ_NOBODY ? -1 : (int)w->owners[i];
+    judge_set_occluders(j, boxes, owners, (size_t)w->occluder_count);
 }
 
 // Asks for the object a little smaller past occluders a little larger.
@@ -239,33 +247,23 @@ static bool is_clear(judge *j, const gl_world *w, int number, double witness[3])
     if (!glb_grow(&w->view, object, -GLB_MARGIN * w->view.tolerance, &smaller) ||
         glb_is_open(&w->view, object))
         return false;
-    judge_set_occluders(j, w->grown, w->owners, (size_t)w->occluder_count);
+    set_occluders(j, w, w->grown);
     return judge_sees(j, &smaller, number) && judge_witness(j, witness);
 }
 
+// All but `samples`.
 static gl_verdict ask(gl_queries *q, judge *j, const gl_world *w, int number)
 {
     const occ_box *object = &w->objects[number];
-    occ_box others[MOST_OCCLUDERS], grown[MOST_OCCLUDERS];
-    size_t count = 0;
-    for (int i = 0; i < w->occluder_count; i++) {
-        if (w->owners[i] == number) continue;
-        others[count] = w->occluders[i];
-        grown[count++] = w->grown[i];
-    }
     gl_verdict v = {.inside = judge_frustum(j, object) != JUDGE_OUTSIDE};
-    judge_set_occluders(j, w->occluders, w->owners, (size_t)w->occluder_count);
+    set_occluders(j, w, w->occluders);
     v.seen = judge_sees(j, object, number);
-    glq_rect all = glq_frustum(&w->view, 1);
-    glq_occlude(q, &w->view, &all, grown, count, GLB_GENEROUS);
-    glq_count(q, &w->view, &all, object, 1, GLB_SPARING, &v.samples);
-
     double witness[3], center[3];
     for (int k = 0; k < 3; k++)
         center[k] = (double)object->center[k];
     v.clear = is_clear(j, w, number, witness);
-    if (v.clear) v.at_pixel = count_at(q, w, witness, others, count, object);
-    if (v.inside && !v.seen) v.at_center = count_at(q, w, center, others, count, object);
+    if (v.clear) v.at_pixel = count_at(q, w, witness, (uint32_t)number);
+    if (v.inside && !v.seen) v.at_center = count_at(q, w, center, (uint32_t)number);
     return v;
 }
 
@@ -294,8 +292,13 @@ static void judge_world(gl_queries *q, const gl_world *w, int number, gl_tally *
 {
     judge *j = judge_of_camera(&w->camera);
     ck_assert_ptr_nonnull(j);
+    uint32_t samples[OBJECTS];
+    glq_rect all = glq_frustum(&w->view, 1);
+    glq_occlude(q, &w->view, &all, w->grown, w->owners, (size_t)w->occluder_count, GLB_GENEROUS);
+    glq_count(q, &w->view, &all, w->objects, NULL, OBJECTS, GLB_SPARING, samples);
     for (int i = 0; i < OBJECTS; i++) {
         gl_verdict v = ask(q, j, w, i);
+        v.samples = samples[i];
         const char *complaint = contradiction(&v);
         KIT_CHECK(!complaint, "world %d, object %d, projection %d, %g x %g pixels: %s (%s)", number,
                   i, (int)w->projection, w->view.pixels[0], w->view.pixels[1], complaint,

@@ -38,8 +38,9 @@ static uint32_t count(const occ_box *object, const occ_box *occluders, size_t nu
     uint32_t samples[2];
     for (int sparing = 0; sparing < 2; sparing++) {
         glb_manner manner = sparing ? GLB_SPARING : GLB_GENEROUS;
-        glq_occlude(queries, &view, &all, occluders, number, sparing ? GLB_GENEROUS : GLB_SPARING);
-        glq_count(queries, &view, &all, object, 1, manner, &samples[sparing]);
+        glq_occlude(queries, &view, &all, occluders, NULL, number,
+                    sparing ? GLB_GENEROUS : GLB_SPARING);
+        glq_count(queries, &view, &all, object, NULL, 1, manner, &samples[sparing]);
     }
     ck_assert_uint_eq(samples[0], samples[1]); // none of these is in doubt
     return samples[0];
@@ -109,11 +110,11 @@ START_TEST(doubt_in_depth_goes_where_it_is_told)
     const occ_box front = block(0, 0, -5, 1.25f, 1.25f, 0);
     glq_rect all = glq_frustum(&view, 0);
     uint32_t samples;
-    glq_occlude(queries, &view, &all, &front, 1, GLB_GENEROUS);
-    glq_count(queries, &view, &all, &front, 1, GLB_SPARING, &samples);
+    glq_occlude(queries, &view, &all, &front, NULL, 1, GLB_GENEROUS);
+    glq_count(queries, &view, &all, &front, NULL, 1, GLB_SPARING, &samples);
     ck_assert_uint_eq(samples, 0);
-    glq_occlude(queries, &view, &all, &front, 1, GLB_SPARING);
-    glq_count(queries, &view, &all, &front, 1, GLB_GENEROUS, &samples);
+    glq_occlude(queries, &view, &all, &front, NULL, 1, GLB_SPARING);
+    glq_count(queries, &view, &all, &front, NULL, 1, GLB_GENEROUS, &samples);
     ck_assert_uint_eq(samples, 16 * 16);
 }
 END_TEST
@@ -126,23 +127,49 @@ START_TEST(many_boxes_are_counted_one_by_one)
     for (int i = 0; i < MANY; i++) // their fronts are at 4.5
         boxes[i] = block(0, 0, -5, 0.1422f * (float)(i % 7), 0.3125f, 0.5f);
     glq_rect all = glq_frustum(&view, 0);
-    glq_occlude(queries, &view, &all, NULL, 0, GLB_SPARING);
-    glq_count(queries, &view, &all, boxes, MANY, GLB_GENEROUS, samples);
+    glq_occlude(queries, &view, &all, NULL, NULL, 0, GLB_SPARING);
+    glq_count(queries, &view, &all, boxes, NULL, MANY, GLB_GENEROUS, samples);
     for (int i = 0; i < MANY; i++)
         KIT_CHECK(samples[i] == 8u * (uint32_t)(i % 7), "%d: %u", i, samples[i]);
+}
+END_TEST
+
+START_TEST(own_occluders_hide_others_alone)
+{
+    const occ_box middle = block(0, 0, -5.25f, 1.26f, 0.64f, 1);
+    const occ_box walls[] = {block(0, 0, -3, 2, 2, 0.25f), block(0, 0, -2.5f, 2, 2, 0.25f),
+                             block(-2, 0, -3.5f, 2, 2, 0.25f), block(2, 0, -9, 2, 2, 0.25f)};
+    const uint32_t owners[] = {7, 7, 3, 3}, asked[] = {7, 3, 0};
+    const uint32_t expected[][3] = {{18 * 10, 0, 0}, {9 * 10, 0, 0}, {9 * 10, 0, 0}};
+    glq_rect all = glq_frustum(&view, 0);
+    for (size_t n = 2; n <= 4; n++) {
+        const occ_box objects[] = {middle, middle, middle};
+        uint32_t samples[3];
+        glq_occlude(queries, &view, &all, walls, owners, n, GLB_GENEROUS);
+        glq_count(queries, &view, &all, objects, asked, 3, GLB_SPARING, samples);
+        for (int i = 0; i < 3; i++)
+            ck_assert_uint_eq(samples[i], expected[n - 2][i]);
+    }
+    const uint32_t swapped[] = {GLQ_NOBODY, 7, 7, 7}; // the nearest is its own, then nobody's
+    uint32_t samples, number = 7;
+    glq_occlude(queries, &view, &all, walls, swapped, 4, GLB_GENEROUS);
+    glq_count(queries, &view, &all, &middle, &number, 1, GLB_SPARING, &samples);
+    ck_assert_uint_eq(samples, 0);
 }
 END_TEST
 
 START_TEST(boxes_next_to_the_eye_are_open)
 {
     const occ_box around = block(0, 0, 0, 9, 9, 9), ahead = block(0, 0, -5, 1, 1, 1),
-                  beside = block(3, 0, 0, 1, 9, 9), through = block(0, 3, 0, 9, 3, 9);
+                  beside = block(3, 0, 0, 1, 9, 9), through = block(0, 3, 0, 9, 3, 9),
+                  across = block(0, 0, -1, 1, 1, 0.9f);
     ck_assert(glb_is_open(&view, &around));
     ck_assert(!glb_is_open(&view, &ahead));
     ck_assert(!glb_is_open(&view, &beside));
     ck_assert(glb_is_open(&view, &through));
-    ck_assert(glb_is_before_near(&view, &beside));
-    ck_assert(!glb_is_before_near(&view, &ahead));
+    ck_assert(!glb_is_cut_by_near(&view, &beside));
+    ck_assert(glb_is_cut_by_near(&view, &across));
+    ck_assert(!glb_is_cut_by_near(&view, &ahead));
     ck_assert_uint_eq(count(&ahead, &beside, 1), count(&ahead, NULL, 0));
 }
 END_TEST
@@ -160,6 +187,7 @@ int main(void)
     tcase_add_test(known, grown_boxes_cover_what_is_in_doubt);
     tcase_add_test(known, doubt_in_depth_goes_where_it_is_told);
     tcase_add_test(known, many_boxes_are_counted_one_by_one);
+    tcase_add_test(known, own_occluders_hide_others_alone);
     tcase_add_test(known, boxes_next_to_the_eye_are_open);
     suite_add_tcase(suite, known);
     return test_run_suite(suite);
