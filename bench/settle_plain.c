@@ -104,7 +104,6 @@ static bool is_behind(const truth_view *view, const occ_box *occluder, const occ
         double place = place_of(view, occluder, normal, &size), reach = reach_of(occluder, normal);
         double margin = CLEARLY * (reach + size);
         if (fabs(place) < reach - margin) continue; // neither of the two looks towards the eye
-        if (fabs(place) < reach + margin) return false;
         double side = place > 0.0 ? 1.0 : -1.0;
         double nearest = side * place_of(view, object, normal, &object_size);
         double object_reach = reach_of(object, normal);
