@@ -65,28 +65,35 @@ static void sample(stage *s, uint32_t shown)
     }
 }
 
-static outcome settle_with(settle *judges, stage *s, uint64_t limit)
+static outcome settle_with(settle *judges, stage *s, settle_limits limits)
 {
     outcome found;
     truth_result settled;
-    const char *complaint = settle_result(judges, &s->result, limit, &settled, &found.sums);
+    const char *complaint = settle_result(judges, &s->result, limits, &settled, &found.sums);
     ck_assert_msg(!complaint, "%s", complaint);
     found.counts = compare_count(&settled, &s->result, NULL, NULL);
     truth_free(&settled);
     const settle_sums *sums = &found.sums;
     ck_assert_uint_eq(sums->settled, sums->judged_visible + sums->judged_hidden);
-    ck_assert_uint_le(sums->settled, limit);
+    ck_assert_uint_le(sums->settled, limits.disagreed);
+    ck_assert_uint_le(sums->agreed_judged, limits.agreed);
     return found;
 }
 
-static outcome settle_stage(stage *s, uint64_t limit)
+static outcome settle_limited(stage *s, uint64_t disagreed, uint64_t agreed)
 {
+    const settle_limits limits = {disagreed, agreed};
     ck_assert_ptr_null(settle_check(&s->scene, &s->truth));
     settle *judges = settle_create(&s->scene, &s->truth);
     ck_assert_ptr_nonnull(judges);
-    outcome found = settle_with(judges, s, limit);
+    outcome found = settle_with(judges, s, limits);
     settle_destroy(judges);
     return found;
+}
+
+static outcome settle_stage(stage *s)
+{
+    return settle_limited(s, SETTLE_DEFAULT, 0);
 }
 
 static void free_stage(stage *s)
@@ -118,7 +125,7 @@ START_TEST(what_shows_through_a_gap_between_samples_is_not_missed)
     stage s = stage_with_gap(0x1p-17f);
     compare_sums sampled = compare_count(&s.truth, &s.result, NULL, NULL);
     ck_assert_uint_eq(sampled.missed, 1);
-    outcome found = settle_stage(&s, SETTLE_DEFAULT);
+    outcome found = settle_stage(&s);
     ck_assert_uint_eq(found.sums.judged_visible, 1);
     ck_assert_uint_eq(found.sums.judged_hidden + found.sums.unsettled, 0);
     ck_assert_uint_eq(found.counts.missed, 0);
@@ -131,7 +138,7 @@ END_TEST
 START_TEST(what_is_behind_a_closed_seam_is_missed)
 {
     stage s = stage_with_gap(0);
-    outcome found = settle_stage(&s, SETTLE_DEFAULT);
+    outcome found = settle_stage(&s);
     ck_assert_uint_eq(found.sums.judged_visible, 0);
     ck_assert_uint_eq(found.sums.judged_hidden, 1);
     ck_assert_uint_eq(found.counts.missed, 1);
@@ -155,7 +162,7 @@ START_TEST(one_of_many_occluders_decides)
         }
         sample(&s, 1);
         ck_assert(!truth_is_visible(&s.truth.verdicts[0]));
-        outcome found = settle_stage(&s, SETTLE_DEFAULT);
+        outcome found = settle_stage(&s);
         ck_assert_uint_eq(found.sums.judged_visible, has_gap);
         ck_assert_uint_eq(found.counts.missed, 1 - has_gap);
         free_stage(&s);
@@ -170,7 +177,7 @@ START_TEST(own_occluder_does_not_hide_the_object)
     obs_add_occluder(&s.scene, &wall, 0);
     sample(&s, 1);
     s.truth.verdicts[0].samples = 0; // as if sampling had been blind
-    ck_assert_uint_eq(settle_stage(&s, SETTLE_DEFAULT).sums.judged_visible, 1);
+    ck_assert_uint_eq(settle_stage(&s).sums.judged_visible, 1);
     free_stage(&s);
 }
 END_TEST
@@ -183,7 +190,7 @@ START_TEST(agreement_and_what_is_outside_are_not_settled)
     add_wall(&s, &wall);
     uint32_t outside = obs_add_object(&s.scene, &beside), seen = obs_add_object(&s.scene, &clear);
     sample(&s, 1u << outside | 1u << seen);
-    outcome found = settle_stage(&s, SETTLE_DEFAULT);
+    outcome found = settle_stage(&s);
     ck_assert_uint_eq(found.sums.settled + found.sums.unsettled, 0);
     ck_assert_uint_eq(found.counts.missed + found.counts.false_hidden, 0);
     free_stage(&s);
@@ -198,7 +205,7 @@ START_TEST(visible_object_reported_hidden_is_confirmed)
     const occ_box wall = block(-2, 0, -3, 2, 2, 0.25f);
     add_wall(&s, &wall);
     sample(&s, 0);
-    outcome found = settle_stage(&s, SETTLE_DEFAULT);
+    outcome found = settle_stage(&s);
     ck_assert_uint_ge(found.sums.false_confirmed, 1);
     ck_assert_uint_eq(found.sums.false_refuted, 0);
     ck_assert_uint_eq(found.counts.false_hidden, found.sums.false_confirmed);
@@ -218,7 +225,7 @@ static bool is_refuted(const occ_box *object, const occ_box *wall)
     s.truth.verdicts[0].samples = 3;
     compare_sums sampled = compare_count(&s.truth, &s.result, NULL, NULL);
     ck_assert_uint_eq(sampled.false_hidden, 1);
-    outcome found = settle_stage(&s, SETTLE_DEFAULT);
+    outcome found = settle_stage(&s);
     uint64_t refuted = found.sums.false_refuted;
     ck_assert_uint_eq(refuted + found.sums.false_confirmed, 1);
     ck_assert_uint_eq(found.counts.false_hidden, 1 - refuted);
@@ -251,13 +258,13 @@ static void check_doubt(const occ_box *object, const occ_box *wall)
     add_wall(&s, wall);
     sample(&s, 2);
     ck_assert(truth_is_visible(&s.truth.verdicts[0]));
-    outcome found = settle_stage(&s, SETTLE_DEFAULT);
+    outcome found = settle_stage(&s);
     ck_assert_uint_eq(found.sums.false_confirmed, 1);
     ck_assert_uint_eq(found.counts.false_hidden, 1);
     const uint32_t shown = 3;
     vis_set_frame(&s.result, 0, &shown);
     s.truth.verdicts[0] = (truth_verdict){.flags = TRUTH_IN_FRUSTUM};
-    found = settle_stage(&s, SETTLE_DEFAULT);
+    found = settle_stage(&s);
     ck_assert_uint_eq(found.sums.judged_hidden, 1);
     ck_assert_uint_eq(found.counts.missed, 1);
     free_stage(&s);
@@ -286,6 +293,61 @@ START_TEST(sheet_edge_on_counts_against_the_result)
 {
     const occ_box object = block(0, 0, -5, 0.5f, 0, 0.5f), floor = block(0, 0, -3, 2, 0, 1);
     check_doubt(&object, &floor);
+}
+END_TEST
+
+// One of its faces is in the plane of the frustum's right side, and the box beyond.
+START_TEST(object_that_only_touches_the_frustum_counts_against_the_result)
+{
+    const occ_box touching = {{5.5f, 0, -4.5f}, {{1, 0, -1}, {0, 1, 0}, {0.5f, 0, 0.5f}}};
+    stage s = stage_with(&touching, 1);
+    sample(&s, 0);
+    s.truth.verdicts[0] = (truth_verdict){.rays = 1, .flags = TRUTH_IN_FRUSTUM};
+    outcome found = settle_stage(&s);
+    ck_assert_uint_eq(found.sums.false_confirmed, 1);
+    ck_assert_uint_eq(found.counts.false_hidden, 1);
+    free_stage(&s);
+}
+END_TEST
+
+// --- hidden for both -----------------------------------------------------------------------------
+
+START_TEST(what_shows_through_a_gap_and_is_reported_hidden_is_false_hidden)
+{
+    for (int is_open = 0; is_open < 2; is_open++) {
+        stage s = stage_with_gap(is_open ? 0x1p-17f : 0);
+        const uint32_t shown = 0;
+        vis_set_frame(&s.result, 0, &shown);
+        compare_sums sampled = compare_count(&s.truth, &s.result, NULL, NULL);
+        ck_assert_uint_eq(sampled.false_hidden, 0);
+        outcome found = settle_stage(&s);
+        ck_assert_uint_eq(found.sums.agreed_judged, 0);
+        ck_assert_uint_eq(found.sums.agreed_unjudged, 1);
+        found = settle_limited(&s, SETTLE_DEFAULT, 5);
+        ck_assert_uint_eq(found.sums.agreed_judged, 1);
+        ck_assert_int_eq((int)found.sums.agreed_seen, is_open);
+        ck_assert_uint_eq(found.sums.agreed_doubtful + found.sums.agreed_unjudged, 0);
+        ck_assert_uint_eq(found.sums.settled + found.sums.unsettled, 0);
+        ck_assert_int_eq((int)found.counts.false_hidden, is_open);
+        ck_assert_uint_eq(found.counts.largest_px, 0);
+        free_stage(&s);
+    }
+}
+END_TEST
+
+START_TEST(decal_that_sampling_could_not_see_is_doubtful)
+{
+    const occ_box decal = block(0, 0, -2.75f, 0.6875f, 0.6875f, 0);
+    const occ_box wall = block(0, 0, -3, 2, 2, 0.25f);
+    stage s = stage_with(&decal, 1);
+    add_wall(&s, &wall);
+    sample(&s, 0);
+    s.truth.verdicts[0].samples = 0;
+    outcome found = settle_limited(&s, SETTLE_DEFAULT, 5);
+    ck_assert_uint_eq(found.sums.agreed_doubtful, 1);
+    ck_assert_uint_eq(found.sums.agreed_seen, 0);
+    ck_assert_uint_eq(found.counts.false_hidden, 0);
+    free_stage(&s);
 }
 END_TEST
 
@@ -323,7 +385,8 @@ START_TEST(limit_is_kept_and_shared_among_frames)
     for (uint32_t limit = 1; limit <= FRAMES * SMALL + 1; limit++) {
         uint32_t most = limit < FRAMES * SMALL ? limit : FRAMES * SMALL;
         settle *judges = settle_create(&s.scene, &s.truth);
-        outcome found = settle_with(judges, &s, limit);
+        const settle_limits limits = {.disagreed = limit};
+        outcome found = settle_with(judges, &s, limits);
         ck_assert_uint_eq(found.sums.settled, most);
         ck_assert_uint_eq(found.sums.unsettled, FRAMES * SMALL - most);
         ck_assert_uint_eq(found.counts.missed, FRAMES * SMALL);
@@ -346,12 +409,12 @@ START_TEST(objects_reported_hidden_come_first)
     vis_set_frame(&s.result, 1, &shown);
     for (int i = 5; i < SMALL; i++)
         s.truth.verdicts[s.scene.object_count + (uint32_t)i].rays = 1;
-    outcome found = settle_stage(&s, 3);
+    outcome found = settle_limited(&s, 3, 0);
     ck_assert_uint_eq(found.sums.false_refuted, 3);
     ck_assert_uint_eq(found.sums.settled, 3);
     ck_assert_uint_eq(found.sums.unsettled, 1 + 9 + 4 + 9);
     ck_assert_uint_eq(found.counts.false_hidden, 1);
-    found = settle_stage(&s, 10);
+    found = settle_limited(&s, 10, 0);
     ck_assert_uint_eq(found.sums.false_refuted, 4);
     ck_assert_uint_eq(found.sums.judged_hidden, 10);
     ck_assert_uint_eq(found.counts.false_hidden, 0);
@@ -359,14 +422,18 @@ START_TEST(objects_reported_hidden_come_first)
 }
 END_TEST
 
+// In frame 1 all are reported hidden.
 START_TEST(what_was_asked_before_changes_nothing)
 {
     stage s = stage_with_many();
     sample(&s, 0x3ff);
+    const uint32_t shown = 0;
+    vis_set_frame(&s.result, 1, &shown);
     settle *judges = settle_create(&s.scene, &s.truth);
     ck_assert_ptr_nonnull(judges);
     for (uint64_t limit = 1; limit < 30; limit += 4) {
-        outcome first = settle_with(judges, &s, limit), fresh = settle_stage(&s, limit);
+        const settle_limits limits = {limit, limit};
+        outcome first = settle_with(judges, &s, limits), fresh = settle_limited(&s, limit, limit);
         ck_assert_mem_eq(&first.sums, &fresh.sums, sizeof first.sums);
         ck_assert_uint_eq(first.counts.missed, fresh.counts.missed);
         ck_assert_uint_eq(first.counts.visible, fresh.counts.visible);
@@ -400,7 +467,8 @@ START_TEST(camera_without_an_eye_is_refused)
     settle *judges = settle_create(&s.scene, &s.truth);
     truth_result settled;
     settle_sums sums;
-    ck_assert_ptr_nonnull(settle_result(judges, &s.result, SETTLE_DEFAULT, &settled, &sums));
+    const settle_limits limits = {.disagreed = SETTLE_DEFAULT};
+    ck_assert_ptr_nonnull(settle_result(judges, &s.result, limits, &settled, &sums));
     ck_assert_ptr_null(settled.verdicts);
     settle_destroy(judges);
     free_stage(&s);
@@ -423,7 +491,12 @@ int main(void)
     tcase_add_test(hidden, what_is_in_an_occluders_surface_counts_against_the_result);
     tcase_add_test(hidden, occluder_cut_open_by_the_near_plane_counts_against_the_result);
     tcase_add_test(hidden, sheet_edge_on_counts_against_the_result);
+    tcase_add_test(hidden, object_that_only_touches_the_frustum_counts_against_the_result);
     suite_add_tcase(suite, hidden);
+    TCase *agreed = tcase_create("agreed");
+    tcase_add_test(agreed, what_shows_through_a_gap_and_is_reported_hidden_is_false_hidden);
+    tcase_add_test(agreed, decal_that_sampling_could_not_see_is_doubtful);
+    suite_add_tcase(suite, agreed);
     TCase *limit = tcase_create("limit");
     tcase_add_test(limit, limit_is_kept_and_shared_among_frames);
     tcase_add_test(limit, objects_reported_hidden_come_first);
