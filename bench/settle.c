@@ -127,14 +127,16 @@ static settle_verdict ask(settle *s, uint32_t object)
 
 // So many of a total are taken, evenly.
 typedef struct ration {
-    uint64_t total, share, met;
+    uint64_t total, share;
+    uint64_t carried; // less than total
 } ration;
 
 static bool takes_next(ration *r)
 {
-    uint64_t before = r->met * r->share / r->total;
-    r->met++;
-    return r->met * r->share / r->total > before;
+    r->carried += r->share;
+    if (r->carried < r->total) return false;
+    r->carried -= r->total;
+    return true;
 }
 
 typedef struct task {
