@@ -13,6 +13,7 @@
 typedef struct settle_extent {
     double low[3], high[3];
     uint32_t occluder; ///< Whose extent it is.
+    uint32_t place;    ///< Where its middle is in the viewport, near places having near numbers.
 } settle_extent;
 
 /// An occluder, and how much of an object it may cover, 0 to 1.
@@ -27,9 +28,12 @@ typedef struct settle_frame {
     const obs_scene *scene;
     truth_view view;
     double least_depth;     ///< Surely less than that of any point in the frustum; 0: unknown.
-    settle_extent *extents; ///< Nearest first.
+    settle_extent *extents; ///< By place.
+    settle_extent *runs;    ///< For each SETTLE_RUN extents what holds them all.
     uint32_t count;
 } settle_frame;
+
+enum { SETTLE_RUN = 32 };
 
 /// NULL, or why there is none. The scene must outlive the frame.
 const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint32_t index);
