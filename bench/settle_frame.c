@@ -195,11 +195,27 @@ static double cover(const settle_extent *a, const settle_extent *b, int i)
     return whole > 0.0 ? common / whole : 1.0;
 }
 
-static int compare_cover(const void *a, const void *b)
+static bool is_better(const settle_candidate *a, const settle_candidate *b)
 {
-    const settle_candidate *x = a, *y = b;
-    if (x->cover != y->cover) return x->cover < y->cover ? 1 : -1;
-    return (x->occluder > y->occluder) - (x->occluder < y->occluder);
+    return a->cover > b->cover || (a->cover == b->cover && a->occluder < b->occluder);
+}
+
+static void swap(settle_candidate *a, settle_candidate *b)
+{
+    settle_candidate kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+// Brings the best to the front, in order.
+static void rank(settle_candidate *list, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++) {
+        uint32_t at = i < SETTLE_BEST ? i : SETTLE_BEST - 1;
+        if (at < i && is_better(&list[i], &list[at])) swap(&list[i], &list[at]);
+        for (; at > 0 && is_better(&list[at], &list[at - 1]); at--)
+            swap(&list[at], &list[at - 1]);
+    }
 }
 
 // Whether a box, or some of a run, can be before the object and over it.
@@ -228,6 +244,6 @@ uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_
             list[found++] = (settle_candidate){cover(other, &extent, X) * cover(other, &extent, Y),
                                                other->occluder};
     }
-    qsort(list, found, sizeof *list, compare_cover);
+    rank(list, found);
     return found;
 }

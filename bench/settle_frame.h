@@ -40,8 +40,12 @@ const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint3
 
 void settle_frame_free(settle_frame *frame);
 
+/// How many candidates settle_frame_select() puts in order.
+enum { SETTLE_BEST = 24 };
+
 /// Lists the other objects' occluders that can hide some of what the frustum holds of an object,
-/// those first that may cover most of it, and returns how many. `list` has room for `frame->count`.
+/// first the SETTLE_BEST that may cover most of it, and returns how many. `list` has room for
+/// `frame->count`.
 /// None of the others meets, beyond the near plane, a segment from the eye to a point of the object
 /// in the frustum: what is seen of it does not depend on them.
 uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_candidate *list);
