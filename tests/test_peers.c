@@ -6,6 +6,7 @@
 #include "kit_obs.h"
 #include "obs.h"
 #include "peer.h"
+#include "peer_pyramid.h"
 #include "scenes.h"
 #include "support.h"
 
@@ -112,6 +113,45 @@ START_TEST(a_wall_hides_what_is_behind_it_and_nothing_else)
     ck_assert_msg(!(mask & bit(behind)) && !(mask & bit(far_behind)), "the wall does not hide");
     ck_assert_msg(!(mask & bit(aback)), "behind the camera is in the frustum");
     ck_assert_uint_eq(mask, bit(wall) | bit(beside) | bit(above) | bit(before) | bit(poking));
+    obs_free(&s.world);
+}
+END_TEST
+
+START_TEST(up_is_up)
+{
+    sight s = look(_i % TURNS);
+    occ_box box = box_of(&s, 0, 1, 5, 2, 2, 0.01); // at z = 10 from -2 to 6
+    uint32_t wall = obs_add_object(&s.world, &box);
+    obs_add_occluder(&s.world, &box, wall);
+    uint32_t high = add_object(&s, 0, 4.5, 10, 0.5), low = add_object(&s, 0, -4.5, 10, 0.5);
+    uint32_t mask = shown(&s.world, _i / TURNS, NULL);
+    ck_assert_msg(!(mask & bit(high)), "the wall does not hide");
+    ck_assert_uint_eq(mask, bit(wall) | bit(low));
+    obs_free(&s.world);
+}
+END_TEST
+
+START_TEST(what_lies_in_a_surface_is_shown)
+{
+    sight s = look(_i % TURNS);
+    uint32_t wall = add_wall(&s, -2, 2, 5, 2);
+    occ_box flat = box_of(&s, 0.3, 0.2, 4.99, 0.5, 0.5, 0);
+    uint32_t decal = obs_add_object(&s.world, &flat);
+    ck_assert_uint_eq(shown(&s.world, _i / TURNS, NULL), bit(wall) | bit(decal));
+    obs_free(&s.world);
+}
+END_TEST
+
+// It passes below the eye. A screen right before the eye leaves open what is seen below -0.69; the
+// corners behind the eye, divided by their depth, would come out above that.
+START_TEST(an_object_that_reaches_behind_the_camera_is_shown)
+{
+    sight s = look(_i % TURNS);
+    occ_box floor = box_of(&s, 0, -2, 7.5, 2, 1, 12.5),
+            screen = box_of(&s, 0, 0.3, 0.5, 0.6, 0.5, 0);
+    uint32_t object = obs_add_object(&s.world, &floor);
+    obs_add_occluder(&s.world, &screen, obs_add_object(&s.world, &screen));
+    ck_assert_msg(shown(&s.world, _i / TURNS, NULL) & bit(object), "the floor is hidden");
     obs_free(&s.world);
 }
 END_TEST
@@ -236,6 +276,54 @@ START_TEST(denormal_numbers_are_numbers_again_afterwards)
 }
 END_TEST
 
+// --- the depth buffer's mip chain
+// -----------------------------------------------------------------
+
+// Whether the pixels around a rectangle are all as near as `depth`, without the chain.
+static bool is_covered(const peer_level *level, const float rectangle[4], float depth)
+{
+    for (int y = 0; y < level->height; y++)
+        for (int x = 0; x < level->width; x++) {
+            float left = rectangle[0] * (float)level->width - 1,
+                  low = rectangle[1] * (float)level->height - 1;
+            float right = rectangle[2] * (float)level->width + 1,
+                  high = rectangle[3] * (float)level->height + 1;
+            bool within = (float)(x + 1) > left && (float)x <= right && (float)(y + 1) > low &&
+                          (float)y <= high;
+            if (within && level->depth[y * level->width + x] > depth) return false;
+        }
+    return true;
+}
+
+START_TEST(the_mip_chain_answers_as_the_buffer_alone_would)
+{
+    static const uint32_t sizes[][2] = {{13, 7},  {16, 8}, {1, 9}, {10, 1},
+                                        {15, 11}, {1, 1},  {3, 14}};
+    peer_pyramid pyramid;
+    kit_random random = {.state = (uint64_t)_i + 1};
+    ck_assert(peer_pyramid_open(&pyramid, sizes[_i][0], sizes[_i][1]));
+    uint32_t counts[2] = {0, 0};
+    for (int round = 0; round < 4000; round++) {
+        peer_level *level = &pyramid.levels[0];
+        for (int i = 0; i < level->width * level->height; i++)
+            level->depth[i] = kit_below(&random, 50) == 0 ? 9 : 1;
+        peer_pyramid_update(&pyramid);
+        float rectangle[4];
+        for (int k = 0; k < 2; k++) {
+            float a = kit_between(&random, 0, 1), b = kit_between(&random, 0, 1);
+            rectangle[k] = a < b ? a : b;
+            rectangle[2 + k] = a < b ? b : a;
+        }
+        const float depth = round % 5 == 0 ? 9.0f : round % 5 == 1 ? 0.99f : 1.0f;
+        bool expected = is_covered(level, rectangle, depth);
+        counts[expected]++;
+        ck_assert_int_eq(peer_pyramid_covers(&pyramid, rectangle, depth), expected);
+    }
+    ck_assert(counts[0] > 400 && counts[1] > 400);
+    peer_pyramid_close(&pyramid);
+}
+END_TEST
+
 // --- whole scenes --------------------------------------------------------------------------------
 
 START_TEST(without_occluders_the_answer_is_that_of_method_frustum)
@@ -339,6 +427,10 @@ int main(void)
     tcase_add_loop_test(small, a_projection_off_its_center_is_followed, 0, VIEWS);
     tcase_add_loop_test(small, without_perspective_only_the_frustum_decides, 0, VIEWS);
     tcase_add_loop_test(small, denormal_numbers_are_numbers_again_afterwards, 0, PEERS);
+    tcase_add_loop_test(small, up_is_up, 0, VIEWS);
+    tcase_add_loop_test(small, what_lies_in_a_surface_is_shown, 0, VIEWS);
+    tcase_add_loop_test(small, an_object_that_reaches_behind_the_camera_is_shown, 0, VIEWS);
+    tcase_add_loop_test(small, the_mip_chain_answers_as_the_buffer_alone_would, 0, 7);
     suite_add_tcase(suite, small);
 
     TCase *scenes = tcase_create("scenes");
