@@ -264,6 +264,21 @@ START_TEST(without_perspective_only_the_frustum_decides)
 }
 END_TEST
 
+START_TEST(denormal_boxes_do_no_harm)
+{
+    obs_scene world;
+    ck_assert(scenes_make("city", 200, 13, &world));
+    for (uint32_t i = 0; i < world.occluder_count; i++)
+        for (int k = 0; k < 12; k++) {
+            float *number = k < 3 ? &world.occluders[i].box.center[k]
+                                  : &world.occluders[i].box.axis[k / 3 - 1][k % 3];
+            *number *= 1e-40f;
+        }
+    free(masks_of(&world, _i, NULL));
+    obs_free(&world);
+}
+END_TEST
+
 START_TEST(denormal_numbers_are_numbers_again_afterwards)
 {
     volatile float tiny = FLT_MIN;
@@ -426,6 +441,7 @@ int main(void)
                         0, VIEWS);
     tcase_add_loop_test(small, a_projection_off_its_center_is_followed, 0, VIEWS);
     tcase_add_loop_test(small, without_perspective_only_the_frustum_decides, 0, VIEWS);
+    tcase_add_loop_test(small, denormal_boxes_do_no_harm, 0, PEERS);
     tcase_add_loop_test(small, denormal_numbers_are_numbers_again_afterwards, 0, PEERS);
     tcase_add_loop_test(small, up_is_up, 0, VIEWS);
     tcase_add_loop_test(small, what_lies_in_a_surface_is_shown, 0, VIEWS);
