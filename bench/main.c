@@ -33,6 +33,9 @@ static const bench_command bench_commands[] = {
     {"compare", "compare T.tru R.vis [--scene F.obs [--settle N] [--hidden N]]",
      "judge a result by it: false-hidden and missed objects",
      "occlude-bench compare city.tru city.vis --scene city.obs", bench_compare},
+    {"hard", "hard [--family F] [--scale S] [--offset O] [--seed N] [--worlds N] [--method M] ...",
+     "run the hard cases and judge every answer exactly", "occlude-bench hard --method pairwise",
+     bench_hard},
 };
 enum { COMMANDS = sizeof bench_commands / sizeof *bench_commands };
 
@@ -52,7 +55,7 @@ static void print_usage(FILE *stream)
     fputs(
         "\n`occlude-bench COMMAND --help` tells all of a command's options. Exit status: 0; 1 if\n"
         "an input cannot be used (nothing is written then); 2 on bad usage; 3 if `compare`\n"
-        "finds a visible object reported hidden.\n",
+        "or `hard` finds a visible object reported hidden.\n",
         stream);
 }
 

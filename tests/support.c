@@ -3,7 +3,6 @@
 
 #include "support.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,6 +60,11 @@ static bool is_set(const char *name)
     const char *value = getenv(name);
     return value != NULL && value[0] != '\0' && strcmp(value, "0") != 0 &&
            strcmp(value, "false") != 0;
+}
+
+bool test_must_have_device(void)
+{
+    return is_set("CI") || is_set("OCC_REQUIRE_OPENCL");
 }
 
 int test_skip_unless(bool (*present)(void), const char *what, const char *variable)
