@@ -300,7 +300,7 @@ static void simplify_matrices(shrinker *s)
             obs_frame *frame = &candidate.camera.frame;
             float *number = i < 16 ? &frame->proj[i] : &frame->view[i - 16];
             if (i >= 16 && (i % 4 == 3 || i >= 28)) break; // the eye's, and a row of zeros
-            if (i < 16 && i % 4 == 3) break;               // what makes it a perspective
+            if (i < 16 && i % 4 >= 2) break; // the depth and w: plain_lens() knows what is sound
             if (*number == 0.0f || !simpler((double)*number, n, &y)) break;
             *number = (float)y;
             const double eye[3] = {candidate.camera.eye[0], candidate.camera.eye[1],

@@ -89,7 +89,7 @@ static void demand_substance(const mini_views *views)
 START_TEST(no_small_world_has_a_seen_object_left_out)
 {
     mini_views views = mini_open_views(false);
-    try_worlds(&views, WORLD_SHARE(10000));
+    try_worlds(&views, WORLD_SHARE(80000));
     demand_substance(&views);
     mini_close_views(&views);
 }
@@ -98,7 +98,7 @@ END_TEST
 START_TEST(an_opencl_device_leaves_out_the_same)
 {
     mini_views views = mini_open_views(true);
-    if (views.view[2]) try_worlds(&views, WORLD_SHARE(1000));
+    if (views.view[2]) try_worlds(&views, WORLD_SHARE(10000));
     mini_close_views(&views);
 }
 END_TEST
