@@ -65,30 +65,44 @@ static void is_true(const pair *p, uint32_t sums[2])
     sums[1] += d.gone + d.come;
 }
 
-// Says of an object how it is called in the other telling; NULL: as before.
-static void compare_views(const trial *t, const meta *m, const meta *other, const uint32_t *order,
-                          const char *what, check *good, uint32_t sums[2])
+// Two tellings of a scene, and what is demanded of them. Object i of the other is object order[i];
+// order NULL: object i.
+typedef struct telling {
+    const trial *t;
+    const meta *m, *other;
+    const uint32_t *order;
+    const char *what;
+    check *good;
+} telling;
+
+static void compare_cameras(const telling *w, occ_view *view, uint32_t every, uint32_t sums[2])
 {
-    occ_scene *scenes[2] = {meta_build(m), meta_build(other)};
-    for (int b = 0; b < BACKENDS; b++) {
-        occ_view *view = world_view(b ? OCC_BACKEND_OPENMP : OCC_BACKEND_PLAIN, 2);
-        for (uint32_t c = 0; c < META_CAMERAS; c++) {
-            bool *before = meta_seen(view, scenes[0], m, c, &t->knobs);
-            bool *there = meta_seen(view, scenes[1], other, c, &t->knobs);
-            bool *now = order ? calloc(m->object_count + 1u, sizeof *now) : there;
-            ck_assert_ptr_nonnull(now);
-            for (uint32_t i = 0; order && i < m->object_count; i++)
-                now[order[i]] = there[i];
-            pair p = {t, m, c, b ? 0 : 500, before, now, what};
-            good(&p, sums);
-            free(before);
-            free(there);
-            if (order) free(now);
-        }
-        occ_view_destroy(view);
+    uint32_t count = w->m->object_count;
+    occ_scene *scenes[2] = {meta_build(w->m), meta_build(w->other)};
+    for (uint32_t c = 0; c < META_CAMERAS; c++) {
+        bool *before = meta_seen(view, scenes[0], w->m, c, &w->t->knobs);
+        bool *there = meta_seen(view, scenes[1], w->other, c, &w->t->knobs);
+        bool *now = calloc(count + 1u, sizeof *now);
+        ck_assert_ptr_nonnull(now);
+        for (uint32_t i = 0; i < count; i++)
+            now[w->order ? w->order[i] : i] = there[i];
+        pair p = {w->t, w->m, c, every, before, now, w->what};
+        w->good(&p, sums);
+        free(before);
+        free(there);
+        free(now);
     }
     for (int i = 0; i < 2; i++)
         occ_scene_destroy(scenes[i]);
+}
+
+static void compare(const telling *w, uint32_t sums[2])
+{
+    for (int b = 0; b < BACKENDS; b++) {
+        occ_view *view = world_view(b ? OCC_BACKEND_OPENMP : OCC_BACKEND_PLAIN, 2);
+        compare_cameras(w, view, b ? 0 : 500, sums);
+        occ_view_destroy(view);
+    }
 }
 
 // --- scaling -------------------------------------------------------------------------------------
@@ -103,7 +117,7 @@ START_TEST(a_power_of_two_changes_no_verdict)
             meta_map map = meta_identity;
             map.factor = ldexpf(1.0f, powers[i]);
             meta other = meta_mapped(&m, &map);
-            compare_views(&trials[t], &m, &other, NULL, "scaled", is_same, sums);
+            compare(&(telling){&trials[t], &m, &other, NULL, "scaled", is_same}, sums);
             meta_free(&other);
         }
         meta_free(&m);
@@ -121,7 +135,7 @@ START_TEST(renumbered_objects_have_the_verdicts_they_had)
         meta m = scene_for(_i, trials[t].small);
         uint32_t *order = meta_order(m.object_count, (uint64_t)_i + 1);
         meta other = meta_objects_in_order(&m, order);
-        compare_views(&trials[t], &m, &other, order, "objects renumbered", is_same, sums);
+        compare(&(telling){&trials[t], &m, &other, order, "objects renumbered", is_same}, sums);
         meta_free(&other);
         meta_free(&m);
         free(order);
@@ -137,8 +151,9 @@ START_TEST(renumbered_occluders_hide_what_they_hid)
         uint32_t *order = meta_order(m.occluder_count, (uint64_t)_i + 1);
         meta other = meta_occluders_in_order(&m, order);
         bool single = trials[t].knobs.method == OCC_METHOD_SINGLE;
-        compare_views(&trials[t], &m, &other, NULL, "occluders renumbered",
-                      single ? is_true : is_same, single ? sums : exact);
+        check *good = single ? is_true : is_same;
+        compare(&(telling){&trials[t], &m, &other, NULL, "occluders renumbered", good},
+                single ? sums : exact);
         meta_free(&other);
         meta_free(&m);
         free(order);
@@ -157,7 +172,8 @@ static void tell(const meta_map *maps, int count, const char *what, int number, 
         bool same = exact && trials[t].knobs.method != OCC_METHOD_SINGLE;
         for (int i = 0; i < count; i++) {
             meta other = meta_mapped(&m, &maps[i]);
-            compare_views(&trials[t], &m, &other, NULL, what, same ? is_same : is_true, sums);
+            check *good = same ? is_same : is_true;
+            compare(&(telling){&trials[t], &m, &other, NULL, what, good}, sums);
             meta_free(&other);
         }
         meta_free(&m);
@@ -195,6 +211,32 @@ START_TEST(a_scene_turned_by_90_degrees_hides_nothing_that_is_seen)
 }
 END_TEST
 
+// --- on a device ---------------------------------------------------------------------------------
+
+// Scaled and mirrored at once; and renumbered. Every method gives what it gave.
+START_TEST(an_opencl_device_gives_the_same_in_other_words)
+{
+    occ_view *device = world_view(OCC_BACKEND_OPENCL, 0);
+    for (int number = 0; device && number < SCENES; number++)
+        for (int t = 0; t < TRIALS; t++) {
+            meta m = meta_scene(names[number], 300, 3);
+            meta_map map = {{0, 1, 2}, {-1, 1, -1}, 0x1p20f, {0, 0, 0}, false};
+            bool single = trials[t].knobs.method == OCC_METHOD_SINGLE;
+            for (int j = 0; single && j < 3; j++) // which has other cells when mirrored
+                map.sign[j] = 1.0f;
+            uint32_t *order = meta_order(m.object_count, 5), sums[2] = {0, 0};
+            meta mapped = meta_mapped(&m, &map), other = meta_objects_in_order(&mapped, order);
+            telling w = {&trials[t], &m, &other, order, "on a device", is_same};
+            compare_cameras(&w, device, 0, sums);
+            free(order);
+            meta_free(&mapped);
+            meta_free(&other);
+            meta_free(&m);
+        }
+    occ_view_destroy(device);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("metamorphic");
@@ -209,5 +251,8 @@ int main(void)
     tcase_add_loop_test(judged, a_mirrored_scene_hides_nothing_that_is_seen, 0, SCENES);
     tcase_add_loop_test(judged, a_scene_turned_by_90_degrees_hides_nothing_that_is_seen, 0, SCENES);
     suite_add_tcase(suite, judged);
+    TCase *device = tcase_create("device");
+    tcase_add_test(device, an_opencl_device_gives_the_same_in_other_words);
+    suite_add_tcase(suite, device);
     return test_run_suite(suite);
 }
