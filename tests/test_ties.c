@@ -52,7 +52,7 @@ static uint64_t turned_round(uint64_t bits, uint32_t count)
 // first. The first hides the second, but belongs to the box behind both, which only the second may
 // hide. So it matters to `single` whether the second was taken before the first could hide it; it
 // may miss the box, and pairs do not.
-START_TEST(of_equally_near_occluders_single_takes_first_what_was_added_first)
+START_TEST(single_may_miss_more_or_less_with_two_equally_near_occluders_exchanged)
 {
     static const world_occluder first = {{{0, 0, -10}, {{12, 0, 12}, {0, 8, 0}, {0, 0, 0}}}, 0};
     static const world_occluder second = {
@@ -99,7 +99,7 @@ START_TEST(an_order_matters_to_nothing_else)
         mini_fault fault;
         if (!same) KIT_CHECK(!mini_breaks(&other, &views, &fault), "world %u: %s", n, fault.text);
     }
-    ck_assert_msg(differ <= worlds / 100, "%u of %u worlds differ", differ, worlds);
+    ck_assert_msg(differ <= worlds / 1000, "%u of %u worlds differ", differ, worlds);
     mini_close_views(&views);
 }
 END_TEST
@@ -108,7 +108,7 @@ int main(void)
 {
     Suite *suite = suite_create("ties");
     TCase *order = tcase_create("order");
-    tcase_add_test(order, of_equally_near_occluders_single_takes_first_what_was_added_first);
+    tcase_add_test(order, single_may_miss_more_or_less_with_two_equally_near_occluders_exchanged);
     tcase_add_test(order, an_order_matters_to_nothing_else);
     suite_add_tcase(suite, order);
     return test_run_suite(suite);
