@@ -189,7 +189,7 @@ occ_scene *meta_build(const meta *m)
 static occ_camera_desc desc_of(const meta_camera *camera)
 {
     occ_camera_desc desc = camera->desc;
-    desc.eye = camera->eye;
+    if (!camera->derived) desc.eye = camera->eye;
     desc.origin = camera->origin;
     return desc;
 }

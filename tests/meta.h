@@ -13,6 +13,7 @@ enum { META_CAMERAS = 4 };
 typedef struct meta_camera {
     occ_camera_desc desc; // its pointers lead to the two below, or nowhere
     double eye[3], origin[3];
+    bool derived; // the library is left to find the eye
 } meta_camera;
 
 typedef struct meta {
