@@ -100,7 +100,7 @@ static void compare(const telling *w, uint32_t sums[2])
 {
     for (int b = 0; b < BACKENDS; b++) {
         occ_view *view = world_view(b ? OCC_BACKEND_OPENMP : OCC_BACKEND_PLAIN, 2);
-        compare_cameras(w, view, b ? 0 : 500, sums);
+        compare_cameras(w, view, b ? 0 : 1000, sums);
         occ_view_destroy(view);
     }
 }

@@ -89,7 +89,7 @@ static void demand_substance(const mini_views *views)
 START_TEST(no_small_world_has_a_seen_object_left_out)
 {
     mini_views views = mini_open_views(false);
-    try_worlds(&views, WORLD_SHARE(80000));
+    try_worlds(&views, WORLD_SHARE(60000));
     demand_substance(&views);
     mini_close_views(&views);
 }
