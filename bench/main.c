@@ -32,6 +32,9 @@ static const bench_command bench_commands[] = {
      "occlude-bench truth city.obs --frames 0,20,40 --out city.tru", bench_truth},
     {"compare", "compare T.tru R.vis", "judge a result by it: false-hidden and missed objects",
      "occlude-bench compare city.tru city.vis", bench_compare},
+    {"error", "error [--quick] [--scenes DIR] [--scene NAME] [--out DIR] ...",
+     "speed against error: every method and setting on every scene, as CSV, tables and plots",
+     "occlude-bench error --quick --out error", bench_error},
 };
 enum { COMMANDS = sizeof bench_commands / sizeof *bench_commands };
 
@@ -51,7 +54,7 @@ static void print_usage(FILE *stream)
     fputs(
         "\n`occlude-bench COMMAND --help` tells all of a command's options. Exit status: 0; 1 if\n"
         "an input cannot be used (nothing is written then); 2 on bad usage; 3 if `compare`\n"
-        "finds a visible object reported hidden.\n",
+        "or `error` finds a visible object reported hidden that must not be.\n",
         stream);
 }
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What `occlude-bench error` leaves behind: a CSV, tables in Markdown, plots.
+#ifndef OCC_BENCH_ERROR_REPORT_H
+#define OCC_BENCH_ERROR_REPORT_H
+
+#include "error_row.h"
+
+/// Writes FOLDER/error.csv, FOLDER/error.md and a FOLDER/SCENE.png for each scene. Plots are left
+/// out, after a message, where gnuplot is missing. False after a message when a file cannot be
+/// written.
+bool error_report(const char *folder, const error_options *options, const error_table *table);
+
+/// A line for each scene and method at its default setting.
+void error_print_summary(FILE *stream, const error_table *table);
+
+/// The report in Markdown, with links to the plots if there are any.
+void error_write_markdown(FILE *stream, const error_table *table, bool has_plots);
+
+/// Draws the scene of the rows [first, last) into a PNG.
+bool error_plot_scene(const char *path, const error_table *table, size_t first, size_t last);
+
+/// The first row after `first` that is of another scene.
+size_t error_scene_end(const error_table *table, size_t first);
+
+/// Whether the run stands for its method in a summary: the default setting on one thread, the
+/// fastest backend that has one.
+bool error_is_summary(const error_row *row);
+
+#endif
