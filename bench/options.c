@@ -31,6 +31,23 @@ bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *val
     return errno == 0 && *end == '\0' && number >= low && number <= high;
 }
 
+bool options_size(const char *text, options_extent least, uint32_t most, options_extent *extent)
+{
+    char copy[32]; // what is longer has too many digits
+    size_t length = strlen(text);
+    if (length >= sizeof copy) return false;
+    memcpy(copy, text, length + 1);
+    char *times = strchr(copy, 'x');
+    if (!times) return false;
+    *times = '\0';
+    uint64_t width, height;
+    if (!options_number(copy, least.width, most, &width) ||
+        !options_number(times + 1, least.height, most, &height))
+        return false;
+    *extent = (options_extent){(uint32_t)width, (uint32_t)height};
+    return true;
+}
+
 static bool parse_real(const char *text, double *value)
 {
     char *end;

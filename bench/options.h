@@ -35,4 +35,13 @@ int options_complain(const char *command, const char *what);
 /// A whole decimal number from `low` to `high`, and nothing else in the text.
 bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *value);
 
+/// The sides of a picture or viewport.
+typedef struct options_extent {
+    uint32_t width, height;
+} options_extent;
+
+/// Width and height as 1600x672, and nothing else in the text. Both must be at least `least`'s and
+/// at most `most`. Leaves `extent` alone if they are not.
+bool options_size(const char *text, options_extent least, uint32_t most, options_extent *extent);
+
 #endif

@@ -17,7 +17,8 @@ static const canvas_color picture_margin = {241, 242, 244};
 
 typedef struct picture_arguments {
     const char *scene, *out, *vis, *frame_text, *size_text;
-    uint64_t frame, width, height;
+    uint64_t frame;
+    options_extent extent;
 } picture_arguments;
 
 static const char picture_usage[] =
@@ -37,24 +38,11 @@ static const char picture_usage[] =
     "\n"
     "Example: occlude-bench picture city.obs --frame 20 --out city.png\n";
 
-static bool parse_size(picture_arguments *arguments)
-{
-    char text[32];
-    arguments->width = 1600;
-    arguments->height = 672;
-    if (!arguments->size_text) return true;
-    snprintf(text, sizeof text, "%s", arguments->size_text);
-    char *x = strchr(text, 'x');
-    if (!x || strlen(arguments->size_text) >= sizeof text) return false;
-    *x = '\0';
-    return options_number(text, 800, 4096, &arguments->width) &&
-           options_number(x + 1, 400, 4096, &arguments->height);
-}
-
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_picture(int argc, char **argv, picture_arguments *arguments)
 {
-    *arguments = (picture_arguments){0};
+    *arguments = (picture_arguments){.extent = {1600, 672}};
+    const options_extent least = {800, 400};
     const options_entry entries[] = {{"--frame", OPTIONS_TEXT, &arguments->frame_text},
                                      {"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--vis", OPTIONS_TEXT, &arguments->vis},
@@ -70,7 +58,8 @@ static int parse_picture(int argc, char **argv, picture_arguments *arguments)
     if (arguments->frame_text &&
         !options_number(arguments->frame_text, 0, UINT32_MAX, &arguments->frame))
         return options_complain(argv[0], "expected a number from 0 after --frame");
-    if (!parse_size(arguments))
+    if (arguments->size_text &&
+        !options_size(arguments->size_text, least, 4096, &arguments->extent))
         return options_complain(argv[0], "expected WxH after --size, from 800x400 to 4096x4096");
     return 0;
 }
@@ -187,7 +176,8 @@ static bool draw_all(canvas *c, const picture_arguments *arguments, const pictur
 static bool draw_picture(const picture_arguments *arguments, const picture_facts *facts)
 {
     canvas c;
-    if (!canvas_create(&c, (int)arguments->width, (int)arguments->height, picture_margin)) {
+    if (!canvas_create(&c, (int)arguments->extent.width, (int)arguments->extent.height,
+                       picture_margin)) {
         fputs("occlude-bench: not enough memory\n", stderr);
         return false;
     }

@@ -25,25 +25,8 @@ static const char truth_usage[] =
 
 typedef struct truth_arguments {
     const char *scene, *out, *frames, *size;
-    uint32_t width, height;
+    options_extent extent;
 } truth_arguments;
-
-// "4096x2304". The text is short, or wrong.
-static bool parse_size(const char *text, uint32_t *width, uint32_t *height)
-{
-    char copy[32];
-    if (strlen(text) >= sizeof copy) return false;
-    memcpy(copy, text, strlen(text) + 1);
-    char *times = strchr(copy, 'x');
-    if (!times) return false;
-    *times = '\0';
-    uint64_t w, h;
-    bool good = options_number(copy, 1, TRUTH_MAX_SIDE, &w) &&
-                options_number(times + 1, 1, TRUTH_MAX_SIDE, &h);
-    *width = good ? (uint32_t)w : 0;
-    *height = good ? (uint32_t)h : 0;
-    return good;
-}
 
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_truth(int argc, char **argv, truth_arguments *arguments)
@@ -59,7 +42,8 @@ static int parse_truth(int argc, char **argv, truth_arguments *arguments)
     if (count == OPTIONS_BAD) return 2;
     if (count != 1) return options_complain(argv[0], "expected a scene file");
     if (!arguments->out) return options_complain(argv[0], "expected --out T.tru");
-    if (!parse_size(arguments->size, &arguments->width, &arguments->height))
+    const options_extent least = {1, 1};
+    if (!options_size(arguments->size, least, TRUTH_MAX_SIDE, &arguments->extent))
         return options_complain(argv[0], "expected --size as 4096x2304, 16384x16384 at most");
     arguments->scene = words[0];
     return 0;
@@ -139,8 +123,8 @@ static int make_truth(const truth_arguments *arguments, const obs_scene *scene,
         fputs("occlude-bench: not enough memory\n", stderr);
         return 1;
     }
-    result.width = arguments->width;
-    result.height = arguments->height;
+    result.width = arguments->extent.width;
+    result.height = arguments->extent.height;
     memcpy(result.frames, list, count * sizeof *list);
     double begin = timing_now();
     bool good = sample_frames(arguments, scene, &result) && truth_write(arguments->out, &result);

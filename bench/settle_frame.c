@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// Seen from the eye, boxes are intervals of x / w and y / w, whose ends are at corners, and of
+// depth. A segment from the eye to a point has the point's x / w and y / w and no greater depth, so
+// an occluder whose intervals are apart from the object's never meets one.
+#include "settle_frame.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Of the magnitudes that enter it, what the value of a row at a corner may have lost: four
+// roundings in the corner and four in the value, 2^-53 each, and as much again.
+#define LOSS 0x1p-49
+
+// What settle_frame_is_plain() asks for where a double could not tell, or hardly.
+#define CLEARLY 1e-9
+
+enum { X, Y, W, DEPTH, VALUES };
+
+// A box's corners in the camera's coordinates, and what these may have lost.
+typedef struct sighting {
+    double at[8][VALUES], loss[VALUES];
+} sighting;
+
+static void sight(const truth_view *view, const occ_box *box, sighting *s)
+{
+    const double *rows[VALUES] = {view->row[0], view->row[1], view->row[2], view->depth};
+    double corner[8][3], reach[3];
+    for (int j = 0; j < 3; j++) {
+        reach[j] = fabs((double)box->center[j]) + fabs(view->eye[j]);
+        for (int k = 0; k < 3; k++)
+            reach[j] += fabs((double)box->axis[k][j]);
+        for (int c = 0; c < 8; c++) {
+            corner[c][j] = (double)box->center[j] - view->eye[j];
+            for (int k = 0; k < 3; k++)
+                corner[c][j] += (c >> k & 1 ? 1.0 : -1.0) * (double)box->axis[k][j];
+        }
+    }
+    for (int i = 0; i < VALUES; i++) {
+        const double *row = rows[i];
+        const double size[3] = {fabs(row[0]), fabs(row[1]), fabs(row[2])};
+        s->loss[i] = LOSS * (truth_dot(size, reach) + fabs(row[3]));
+        for (int c = 0; c < 8; c++)
+            s->at[c][i] = truth_value(row, corner[c]);
+    }
+}
+
+// Takes in a point whose w is more than what it may have lost.
+static void widen(settle_extent *extent, const double at[VALUES], const double loss[VALUES])
+{
+    for (int i = 0; i < 2; i++) {
+        double ratio = at[i] / at[W];
+        double more = (loss[i] + fabs(ratio) * loss[W]) / (at[W] - loss[W]);
+        more = 1.001 * more + 0x1p-50 * fabs(ratio);
+        extent->low[i] = fmin(extent->low[i], ratio - more);
+        extent->high[i] = fmax(extent->high[i], ratio + more);
+    }
+}
+
+// Of a box that is partly before `least`: the corners beyond, and the edges cut about there. A cut
+// that roundings put beside the plane is still a point of the edge whose w is between 0 and four
+// times `least`, which is enough.
+static void widen_beyond(settle_extent *extent, const sighting *s, double least)
+{
+    double loss[VALUES];
+    for (int i = 0; i < VALUES; i++)
+        loss[i] = 8.0 * s->loss[i];
+    for (int c = 0; c < 8; c++) {
+        const double *from = s->at[c];
+        if (from[W] < least) continue;
+        widen(extent, from, loss);
+        for (int k = 0; k < 3; k++) {
+            const double *to = s->at[c ^ 1 << k];
+            if (to[W] >= least) continue;
+            double t = (from[W] - least) / (from[W] - to[W]), cut[VALUES];
+            for (int i = 0; i < VALUES; i++)
+                cut[i] = from[i] + t * (to[i] - from[i]);
+            widen(extent, cut, loss);
+        }
+    }
+}
+
+// False if the box is surely outside the frustum.
+static bool find_extent(const settle_frame *frame, const occ_box *box, settle_extent *extent)
+{
+    sighting s;
+    sight(&frame->view, box, &s);
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        extent->low[i] = INFINITY;
+        extent->high[i] = -INFINITY;
+    }
+    for (int c = 0; c < 8; c++) {
+        nearest = fmin(nearest, s.at[c][W]);
+        farthest = fmax(farthest, s.at[c][W]);
+        extent->low[2] = fmin(extent->low[2], s.at[c][DEPTH] - s.loss[DEPTH]);
+        extent->high[2] = fmax(extent->high[2], s.at[c][DEPTH] + s.loss[DEPTH]);
+    }
+    double least = frame->least_depth;
+    if (farthest + s.loss[W] < least) return false;
+    if (nearest > fmax(least, 16.0 * s.loss[W])) {
+        for (int c = 0; c < 8; c++)
+            widen(extent, s.at[c], s.loss);
+    } else if (least > 16.0 * s.loss[W]) {
+        widen_beyond(extent, &s, least);
+    } else {
+        for (int i = 0; i < 2; i++) {
+            extent->low[i] = -INFINITY;
+            extent->high[i] = INFINITY;
+        }
+    }
+    return extent->low[X] <= 1.0 && extent->high[X] >= -1.0 && extent->low[Y] <= 1.0 &&
+           extent->high[Y] >= -1.0;
+}
+
+// A quarter of the near corners' least depth, if these are what is nearest in the frustum, and far
+// enough to be more than the rounding of the eye.
+static double find_least_depth(const truth_view *view)
+{
+    bool is_perspective = view->row[2][3] == 0.0;
+    double least = INFINITY, size = 0.0;
+    for (int c = 0; c < 4; c++)
+        least = fmin(least, truth_value(view->row[2], view->near_corner[c]));
+    for (int j = 0; j < 3; j++)
+        size += fabs(view->row[2][j] * view->eye[j]);
+    bool is_nearest = is_perspective && view->plane[TRUTH_NEAR][3] < 0.0;
+    return is_nearest && least > 0x1p-20 * size ? 0.25 * least : 0.0;
+}
+
+static int compare_depth(const void *a, const void *b)
+{
+    const settle_extent *x = a, *y = b;
+    return (x->low[2] > y->low[2]) - (x->low[2] < y->low[2]);
+}
+
+const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint32_t index)
+{
+    *frame = (settle_frame){.scene = scene};
+    if (!truth_view_make(&frame->view, &scene->frames[index], 1, 1))
+        return "its camera has no eye or no direction of view";
+    frame->least_depth = find_least_depth(&frame->view);
+    frame->extents = malloc(((size_t)scene->occluder_count + 1) * sizeof *frame->extents);
+    if (!frame->extents) return "not enough memory";
+    for (uint32_t i = 0; i < scene->occluder_count; i++) {
+        settle_extent *extent = &frame->extents[frame->count];
+        if (!find_extent(frame, &scene->occluders[i].box, extent)) continue;
+        extent->occluder = i;
+        frame->count++;
+    }
+    qsort(frame->extents, frame->count, sizeof *frame->extents, compare_depth);
+    return NULL;
+}
+
+void settle_frame_free(settle_frame *frame)
+{
+    free(frame->extents);
+    *frame = (settle_frame){0};
+}
+
+// --- selecting -----------------------------------------------------------------------------------
+
+// How much of b's interval a covers.
+static double cover(const settle_extent *a, const settle_extent *b, int i)
+{
+    double common = fmin(a->high[i], b->high[i]) - fmax(a->low[i], b->low[i]);
+    double whole = b->high[i] - b->low[i];
+    return whole > 0.0 ? common / whole : 1.0;
+}
+
+static int compare_cover(const void *a, const void *b)
+{
+    const settle_candidate *x = a, *y = b;
+    if (x->cover != y->cover) return x->cover < y->cover ? 1 : -1;
+    return (x->occluder > y->occluder) - (x->occluder < y->occluder);
+}
+
+uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_candidate *list)
+{
+    settle_extent extent;
+    uint32_t found = 0;
+    if (!find_extent(frame, &frame->scene->objects[object], &extent)) return 0;
+    for (int i = 0; i < 2; i++) {
+        extent.low[i] = fmax(extent.low[i], -1.0);
+        extent.high[i] = fmin(extent.high[i], 1.0);
+    }
+    for (uint32_t e = 0; e < frame->count; e++) {
+        const settle_extent *other = &frame->extents[e];
+        if (other->low[2] > extent.high[2]) break;
+        if (other->low[X] > extent.high[X] || other->high[X] < extent.low[X] ||
+            other->low[Y] > extent.high[Y] || other->high[Y] < extent.low[Y] ||
+            frame->scene->occluders[other->occluder].owner == object)
+            continue;
+        list[found++] = (settle_candidate){cover(other, &extent, X) * cover(other, &extent, Y),
+                                           other->occluder};
+    }
+    qsort(list, found, sizeof *list, compare_cover);
+    return found;
+}
+
+// --- plain occluders -----------------------------------------------------------------------------
+
+static void normal_of(const occ_box *box, int face, double normal[3])
+{
+    double u[3], v[3];
+    for (int j = 0; j < 3; j++) {
+        u[j] = (double)box->axis[(face + 1) % 3][j];
+        v[j] = (double)box->axis[(face + 2) % 3][j];
+    }
+    truth_cross(u, v, normal);
+}
+
+// How far a box reaches to both sides of its center along a direction of any length.
+static double reach_of(const occ_box *box, const double along[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double axis[3] = {(double)box->axis[k][0], (double)box->axis[k][1],
+                                (double)box->axis[k][2]};
+        sum += fabs(truth_dot(along, axis));
+    }
+    return sum;
+}
+
+// The center, relative to the eye, and the magnitude of what its place along a direction is
+// computed from.
+static double place_of(const truth_view *view, const occ_box *box, const double along[3],
+                       double *size)
+{
+    double place = 0.0;
+    *size = 0.0;
+    for (int j = 0; j < 3; j++) {
+        place += along[j] * ((double)box->center[j] - view->eye[j]);
+        *size += fabs(along[j]) * (fabs((double)box->center[j]) + fabs(view->eye[j]));
+    }
+    return place;
+}
+
+static bool are_apart_along(const truth_view *view, const occ_box *a, const occ_box *b,
+                            const double along[3])
+{
+    double size_a, size_b, reach = reach_of(a, along) + reach_of(b, along);
+    double between = place_of(view, a, along, &size_a) - place_of(view, b, along, &size_b);
+    return fabs(between) > reach + CLEARLY * (reach + size_a + size_b);
+}
+
+static bool are_apart(const truth_view *view, const occ_box *a, const occ_box *b)
+{
+    for (int k = 0; k < 3; k++) {
+        double unit[3] = {0.0, 0.0, 0.0}, normal[3];
+        unit[k] = 1.0;
+        if (are_apart_along(view, a, b, unit)) return true;
+        normal_of(a, k, normal);
+        if (are_apart_along(view, a, b, normal)) return true;
+        normal_of(b, k, normal);
+        if (are_apart_along(view, a, b, normal)) return true;
+    }
+    return false;
+}
+
+static bool is_beyond_near(const truth_view *view, const occ_box *box)
+{
+    const double *plane = view->plane[TRUTH_NEAR];
+    double size, reach = reach_of(box, plane), place = place_of(view, box, plane, &size);
+    return place + plane[3] > reach + CLEARLY * (reach + size + fabs(plane[3]));
+}
+
+// Whether a face has the box on one side, and on the other the eye with what of the frustum is
+// before the near plane.
+static bool is_whole(const truth_view *view, const occ_box *box)
+{
+    bool is_perspective = view->row[2][3] == 0.0;
+    if (is_beyond_near(view, box)) return true;
+    for (int k = 0; is_perspective && k < 3; k++) {
+        double normal[3], size;
+        normal_of(box, k, normal);
+        double place = place_of(view, box, normal, &size), low = 0.0, high = 0.0;
+        for (int c = 0; c < 4; c++) {
+            double at = truth_dot(normal, view->near_corner[c]);
+            low = fmin(low, at);
+            high = fmax(high, at);
+        }
+        double reach = reach_of(box, normal);
+        double margin = reach + CLEARLY * (reach + size + high - low);
+        if (place - margin > high || place + margin < low) return true;
+    }
+    return false;
+}
+
+bool settle_frame_is_plain(const settle_frame *frame, const occ_box *occluder,
+                           const occ_box *object)
+{
+    truth_solid solids[TRUTH_MAX_SOLIDS];
+    return truth_solids_of(&frame->view, occluder, solids) > 0 &&
+           is_whole(&frame->view, occluder) && are_apart(&frame->view, occluder, object);
+}
