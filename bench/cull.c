@@ -5,13 +5,14 @@
 #include "measure.h"
 #include "options.h"
 #include "outfile.h"
+#include "peer.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct cull_arguments {
     measure_settings settings;
-    const char *scene, *out, *csv;
+    const char *scene, *out, *csv, *rays;
     double min_area;
     bool force;
 } cull_arguments;
@@ -25,6 +26,10 @@ static const char cull_usage[] =
     "                     frustum: nothing is hidden\n"
     "                     pairwise: every object against every occluder, exact test\n"
     "                     thesis: the 2019 thesis's test as published; it hides visible objects\n"
+    "                     embree-depth: a small depth buffer traced by Embree, as Godot 4 does\n"
+    "                     embree-rays: rays to the eight corners, by Embree\n"
+    "                     (these three on --backend plain unless said otherwise; not "
+    "conservative)\n"
     "  --backend B        openmp (default), plain (one thread of C), opencl\n"
     "  --threads T        threads of the openmp backend (default: one to a processor)\n"
     "  --repeat R         timed culls of each frame (default 5)\n"
@@ -34,6 +39,7 @@ static const char cull_usage[] =
     "  --min-area A       smallest solid angle at which an occluder is used (default 2e-4)\n"
     "  --grain N          most objects in a node that is tested as it is (default 32)\n"
     "  --max-occluders N  most occluders used in a frame (default 1024)\n"
+    "  --rays WxH         size of embree-depth's buffer (default 85x48)\n"
     "  --force            run a quadratic method on a large scene too\n"
     "\n"
     "A frame's time is that of culling, of copying the mask and of copying the list of visible\n"
@@ -43,6 +49,22 @@ static const char cull_usage[] =
     "over the frames, and in_frustum and visible are means over them.\n"
     "\n"
     "Example: occlude-bench cull city.obs --method single --backend openmp --csv city.csv\n";
+
+static bool parse_rays(const char *text, measure_settings *settings)
+{
+    char width[16];
+    size_t length = strcspn(text, "x");
+    uint64_t numbers[2];
+    if (length >= sizeof width || text[length] != 'x') return false;
+    memcpy(width, text, length);
+    width[length] = '\0';
+    if (!options_number(width, 1, PEER_MOST_RAYS, &numbers[0]) ||
+        !options_number(text + length + 1, 1, PEER_MOST_RAYS, &numbers[1]))
+        return false;
+    settings->rays_width = (uint32_t)numbers[0];
+    settings->rays_height = (uint32_t)numbers[1];
+    return true;
+}
 
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_cull(int argc, char **argv, cull_arguments *arguments)
@@ -60,6 +82,7 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
         {"--min-area", OPTIONS_REAL, &arguments->min_area},
         {"--grain", OPTIONS_COUNT, &settings->knobs.grain},
         {"--max-occluders", OPTIONS_COUNT, &settings->knobs.max_occluders},
+        {"--rays", OPTIONS_TEXT, &arguments->rays},
         {"--force", OPTIONS_FLAG, &arguments->force},
         {NULL, OPTIONS_FLAG, NULL}};
     char *words[1];
@@ -69,6 +92,8 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
     if (count != 1) return options_complain(argv[0], "expected a scene file");
     arguments->scene = words[0];
     settings->knobs.min_area = (float)arguments->min_area;
+    if (arguments->rays && !parse_rays(arguments->rays, settings))
+        return options_complain(argv[0], "expected --rays as 85x48, 4096x4096 at most");
     const char *complaint = measure_complete(settings);
     if (complaint) return options_complain(argv[0], complaint);
     if (settings->repeats > 1000) return options_complain(argv[0], "--repeat is 1000 at most");
@@ -116,9 +141,9 @@ static void base_name(const char *path, char *name, size_t size)
 static void print_memory(const obs_scene *scene, const measure_result *result)
 {
     double objects = scene->object_count ? scene->object_count : 1;
-    printf("build %.1f ms (%u objects, %u occluders, all octrees)\n", result->build_ms,
+    printf("build %.1f ms (%u objects, %u occluders, all trees)\n", result->build_ms,
            scene->object_count, scene->occluder_count);
-    printf("library memory %llu bytes (scene %llu, view %llu), %.1f bytes per object\n",
+    printf("memory %llu bytes (scene %llu, view %llu), %.1f bytes per object\n",
            (unsigned long long)result->held_bytes, (unsigned long long)result->scene_bytes,
            (unsigned long long)result->view_bytes, (double)result->held_bytes / objects);
     if (result->device_bytes > 0)

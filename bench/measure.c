@@ -4,8 +4,8 @@
 
 #include "build_info.h"
 #include "counting.h"
+#include "peer.h"
 #include "progress.h"
-#include "thesis.h"
 #include "timing.h"
 
 #include <stdio.h>
@@ -23,13 +23,16 @@ typedef struct measure_bench {
     occ_view *view;
     occ_cull_desc knobs;
     uint32_t *mask, *list;
-    double *times; // [3][frame][repeat]: whole, walk, test
-    bool is_thesis;
+    double *times;           // [3][frame][repeat]: whole, walk, test
+    const peer_method *peer; // NULL: the library's own
+    void *peer_state;
+    uint64_t peer_bytes;
 } measure_bench;
 
 measure_settings measure_defaults(void)
 {
-    return (measure_settings){.method = "single", .repeats = 5, .every = 1};
+    return (measure_settings){
+        .method = "single", .repeats = 5, .every = 1, .rays_width = 85, .rays_height = 48};
 }
 
 static bool find_method(const char *name, occ_method *method)
@@ -58,29 +61,28 @@ static bool find_backend(const char *name, occ_backend *backend)
     return false;
 }
 
-static bool is_thesis(const measure_settings *settings)
-{
-    return strcmp(settings->method, "thesis") == 0;
-}
-
 const char *measure_complete(measure_settings *settings)
 {
     occ_method method;
     occ_backend backend;
-    if (!settings->backend) settings->backend = is_thesis(settings) ? "plain" : "openmp";
-    if (!is_thesis(settings) && !find_method(settings->method, &method))
-        return "expected frustum, thesis, pairwise or single after --method";
+    const peer_method *peer = peer_find(settings->method);
+    if (!settings->backend) settings->backend = peer ? "plain" : "openmp";
+    if (!peer && !find_method(settings->method, &method))
+        return "expected frustum, thesis, embree-depth, embree-rays, pairwise or single after "
+               "--method";
     if (!find_backend(settings->backend, &backend))
         return "expected plain, openmp or opencl after --backend";
-    if (is_thesis(settings) && backend != OCC_BACKEND_PLAIN)
-        return "the thesis's method runs on --backend plain alone";
-    return NULL;
+    if (peer && peer->missing) return "built without Embree 3, which this method needs";
+    if (!peer || backend == OCC_BACKEND_PLAIN) return NULL;
+    if (!peer->takes_threads) return "the thesis's method runs on --backend plain alone";
+    return backend == OCC_BACKEND_OPENMP ? NULL : "Embree runs on --backend plain or openmp alone";
 }
 
 const char *measure_warning(const measure_settings *settings, const obs_scene *scene)
 {
     double objects = scene->object_count, occluders = scene->occluder_count;
-    if (is_thesis(settings) && objects > 5000)
+    const peer_method *peer = peer_find(settings->method);
+    if (peer && peer->is_quadratic && objects > 5000)
         return "the thesis's method tries all pairs of objects: --force runs it on more than 5000";
     if (strcmp(settings->method, "pairwise") == 0 && objects * occluders > 1e9)
         return "pairwise tries all pairs: --force runs it on more than 1e9 of them";
@@ -166,6 +168,23 @@ static bool make_view(measure_bench *bench)
     return true;
 }
 
+static bool open_peer(measure_bench *bench)
+{
+    measure_result *result = bench->result;
+    const measure_settings *settings = bench->settings;
+    const peer_options options = {.threads = result->threads,
+                                  .rays_width = settings->rays_width,
+                                  .rays_height = settings->rays_height};
+    peer_info info = {0};
+    double start = timing_now();
+    bench->peer_state = bench->peer->open(bench->file, &options, &info);
+    if (!bench->peer_state) return false;
+    result->build_ms = timing_now() - start;
+    bench->peer_bytes = info.bytes;
+    if (info.driver[0]) snprintf(result->driver, sizeof result->driver, "%s", info.driver);
+    return true;
+}
+
 // --- culling -------------------------------------------------------------------------------------
 
 static occ_result cull_frame(occ_view *view, const occ_scene *scene, const obs_frame *frame,
@@ -180,29 +199,29 @@ static occ_result cull_frame(occ_view *view, const occ_scene *scene, const obs_f
 // Returns the number of visible objects.
 static size_t list_from_mask(const uint32_t *mask, uint32_t count, uint32_t *list)
 {
-    size_t visible = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (mask[i / 32] >> i % 32 & 1) list[visible++] = i;
+    size_t visible = 0, words = OCC_MASK_WORDS(count);
+    for (size_t word = 0; word < words; word++)
+        for (uint32_t left = mask[word]; left != 0; left &= left - 1)
+            list[visible++] = (uint32_t)(32 * word) + (uint32_t)__builtin_ctz(left);
     return visible;
 }
 
-static void cull_as_thesis(measure_bench *bench, const obs_frame *frame, measure_frame *row)
+static void cull_as_peer(measure_bench *bench, const obs_frame *frame, measure_frame *row)
 {
     uint32_t count = bench->file->object_count;
+    row->stats = (occ_view_stats){.objects = count};
     double start = timing_now();
-    thesis_cull(bench->file, frame, bench->mask);
-    row->stats = (occ_view_stats){.objects = count, .tested = count};
+    bench->peer->cull(bench->peer_state, frame, bench->mask, &row->stats);
     row->stats.visible = (uint32_t)list_from_mask(bench->mask, count, bench->list);
     row->ms = timing_now() - start;
-    row->stats.test_ms = row->ms;
 }
 
 // One cull with its hand-over, timed into `row`.
 static bool cull_once(measure_bench *bench, measure_frame *row)
 {
     const obs_frame *frame = &bench->file->frames[row->index];
-    if (bench->is_thesis) {
-        cull_as_thesis(bench, frame, row);
+    if (bench->peer) {
+        cull_as_peer(bench, frame, row);
         return true;
     }
     size_t words, visible = 0, capacity = bench->file->object_count;
@@ -284,24 +303,34 @@ static bool run_timed_passes(measure_bench *bench)
     return true;
 }
 
+static bool ask_for_sizes(measure_bench *bench)
+{
+    measure_result *result = bench->result;
+    if (bench->peer) { // the library's scene was only there to count what is in the frustum
+        result->scene_bytes = result->held_bytes = bench->peer_bytes;
+        return true;
+    }
+    occ_scene_stats scene;
+    if (!succeeded(occ_scene_get_stats(bench->scene, &scene), "asking for the scene's size"))
+        return false;
+    result->scene_bytes = scene.bytes;
+    result->held_bytes = bench->heap.bytes;
+    if (result->frame_count == 0) return true;
+    result->view_bytes = result->frames[0].stats.bytes;
+    result->device_bytes = result->frames[0].stats.device_bytes;
+    return true;
+}
+
 static bool run_all(measure_bench *bench)
 {
     if (!build_scene(bench) || !count_in_frustum(bench)) return false;
-    if (!bench->is_thesis && !make_view(bench)) return false;
+    if (bench->peer ? !open_peer(bench) : !make_view(bench)) return false;
     progress_begin("culling frames",
                    (size_t)bench->result->frame_count * (1 + bench->settings->repeats));
     bool good = warm_up(bench) && run_timed_passes(bench);
     progress_end();
     if (!good) return false;
-    occ_scene_stats scene;
-    if (!succeeded(occ_scene_get_stats(bench->scene, &scene), "asking for the scene's size"))
-        return false;
-    bench->result->scene_bytes = scene.bytes;
-    bench->result->held_bytes = bench->heap.bytes;
-    if (bench->result->frame_count == 0 || bench->is_thesis) return true;
-    bench->result->view_bytes = bench->result->frames[0].stats.bytes;
-    bench->result->device_bytes = bench->result->frames[0].stats.device_bytes;
-    return true;
+    return ask_for_sizes(bench);
 }
 
 static bool allocate_bench(measure_bench *bench)
@@ -326,10 +355,11 @@ bool measure_run(const measure_settings *settings, const obs_scene *scene, measu
 {
     *result = (measure_result){.threads = thread_count(settings), .driver = "none"};
     measure_bench bench = {.file = scene, .settings = settings, .result = result};
-    bench.is_thesis = is_thesis(settings);
+    bench.peer = peer_find(settings->method);
     bench.knobs = settings->knobs;
-    if (!bench.is_thesis && !find_method(settings->method, &bench.knobs.method)) return false;
+    if (!bench.peer && !find_method(settings->method, &bench.knobs.method)) return false;
     bool good = allocate_bench(&bench) && run_all(&bench);
+    if (bench.peer_state) bench.peer->close(bench.peer_state);
     occ_view_destroy(bench.view);
     occ_scene_destroy(bench.scene);
     free(bench.mask);

@@ -2,10 +2,10 @@
 /// @file
 /// Culls the frames of a scene file with one method and backend, and times it.
 ///
-/// The time of a frame is what a user waits for: the call of occ_cull(), the copy of the mask and
-/// the copy of the list of visible objects. All frames are culled once before anything is timed;
-/// then they are culled in order, as often as `repeats` says, so that no frame finds its own data
-/// in the caches.
+/// The time of a frame is what a user waits for: the call of occ_cull() (or of a peer), the copy of
+/// the mask and the copy of the list of visible objects. All frames are culled once before anything
+/// is timed; then they are culled in order, as often as `repeats` says, so that no frame finds its
+/// own data in the caches.
 #ifndef OCC_BENCH_MEASURE_H
 #define OCC_BENCH_MEASURE_H
 
@@ -16,12 +16,13 @@
 
 /// What to run. measure_defaults() begins it, measure_complete() ends it.
 typedef struct measure_settings {
-    const char *method;  ///< frustum, thesis, pairwise or single.
+    const char *method;  ///< frustum, pairwise, single, or a peer's (peer.h).
     const char *backend; ///< plain, openmp or opencl. NULL: measure_complete() chooses.
     uint32_t threads;    ///< Of the OpenMP backend. 0: as many as processors.
-    uint32_t repeats;    ///< Timed culls of each frame.
-    uint32_t every;      ///< Only every so-manieth frame.
-    occ_cull_desc knobs; ///< Its `method` follows from the name.
+    uint32_t rays_width, rays_height; ///< Of embree-depth's buffer.
+    uint32_t repeats;                 ///< Timed culls of each frame.
+    uint32_t every;                   ///< Only every so-manieth frame.
+    occ_cull_desc knobs;              ///< Its `method` follows from the name.
 } measure_settings;
 
 /// A frame's figures. Times are medians over its repeats, in milliseconds.
@@ -29,7 +30,7 @@ typedef struct measure_frame {
     uint32_t index; ///< In the file.
     double ms, walk_ms, test_ms;
     uint32_t in_frustum;
-    occ_view_stats stats; ///< For `thesis` only objects, tested and visible are set.
+    occ_view_stats stats; ///< For a peer only objects, tested, visible and times are set.
 } measure_frame;
 
 /// What came out. measure_free() it when done.
@@ -37,11 +38,11 @@ typedef struct measure_result {
     uint32_t frame_count, threads;
     measure_frame *frames;
     vis_result verdicts; ///< One row for each entry of `frames`.
-    double build_ms;     ///< Adding and committing all objects and occluders.
-    uint64_t scene_bytes, view_bytes, device_bytes; ///< As the library says.
+    double build_ms;     ///< Adding and committing all objects and occluders, or a peer's likewise.
+    uint64_t scene_bytes, view_bytes, device_bytes; ///< As the library or the peer says.
     uint64_t held_bytes;        ///< As the allocator hooks count: scene and view together.
     uint64_t timed_allocations; ///< Seen by the allocator hooks while frames were timed.
-    char driver[256];           ///< The OpenCL device and its driver, or "none".
+    char driver[256];           ///< The OpenCL device and its driver, Embree, or "none".
 } measure_result;
 
 /// Method single, the OpenMP backend, five repeats, every frame.

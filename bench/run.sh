@@ -33,7 +33,7 @@ measure() {
     "$bench" cull "$scenes/$measure_scene.obs" --method "$measure_method" --backend "${measure_backend%1}" \
         --csv "$measure_stem.csv" "$@" >"$measure_stem.txt" || return 1
     { tail -n 1 "$measure_stem.txt" | tr '\n' ' '
-      sed -n 's/^library memory.* \([0-9.]*\) bytes per object$/bytes_per_object=\1/p' "$measure_stem.txt"
+      sed -n 's/^memory.* \([0-9.]*\) bytes per object$/bytes_per_object=\1/p' "$measure_stem.txt"
     } >>"$summaries"
     rm "$measure_stem.txt"
 }

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method embree-rays: eight rays to an object's corners against the occluders' triangles. Exact for
+// one convex occluder; a union of them may block all corners and leave the middle open.
+#include "peer_boxes.h"
+#include "peer_embree.h"
+#include "timing.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { CORNERS = 8, PAIR = 2 };
+
+// Rays end a little before their corner, so that a surface which the corner lies in does not count
+// as in front of it.
+static const float NEARLY_THERE = 1 - 1e-5f;
+
+typedef struct rays_state {
+    peer_tree tree;
+    peer_boxes boxes;
+    uint32_t *owning; // bits of the objects that own an occluder
+    int threads;
+} rays_state;
+
+static uint32_t *find_owning(const obs_scene *scene)
+{
+    uint32_t *bits = calloc(OCC_MASK_WORDS(scene->object_count) + 1, sizeof *bits);
+    if (!bits) fputs("occlude-bench: not enough memory\n", stderr);
+    for (uint32_t i = 0; bits && i < scene->occluder_count; i++)
+        bits[scene->occluders[i].owner / 32] |= UINT32_C(1) << scene->occluders[i].owner % 32;
+    return bits;
+}
+
+void *peer_rays_open(const obs_scene *scene, const peer_options *options, peer_info *info)
+{
+    rays_state *state = calloc(1, sizeof *state);
+    if (!state) {
+        fputs("occlude-bench: not enough memory\n", stderr);
+        return NULL;
+    }
+    state->threads = (int)options->threads;
+    state->owning = find_owning(scene);
+    if (!state->owning || !peer_boxes_open(&state->boxes, scene) ||
+        !peer_tree_open(&state->tree, scene, true)) {
+        peer_rays_close(state);
+        return NULL;
+    }
+    peer_tree_tell(&state->tree, info);
+    info->bytes += peer_boxes_bytes(&state->boxes);
+    info->bytes += OCC_MASK_WORDS(scene->object_count) * sizeof *state->owning;
+    return state;
+}
+
+void peer_rays_close(void *state)
+{
+    rays_state *rays = state;
+    peer_tree_close(&rays->tree);
+    peer_boxes_close(&rays->boxes);
+    free(rays->owning);
+    free(rays);
+}
+
+// Turns down hits of an occluder that is part of the ray's own object. Rays and hits come as arrays
+// of N of each member, in the order of the members of RTCRay and RTCHit.
+static void skip_own(const struct RTCFilterFunctionNArguments *args)
+{
+    enum { MEMBER_PRIM_ID = 5, MEMBER_ID = 10 };
+    const uint32_t *owners = args->geometryUserPtr;
+    const unsigned *ids = (const unsigned *)args->ray + (size_t)MEMBER_ID * args->N;
+    const unsigned *triangles = (const unsigned *)args->hit + (size_t)MEMBER_PRIM_ID * args->N;
+    for (unsigned i = 0; i < args->N; i++)
+        if (args->valid[i] && owners[triangles[i]] == ids[i]) args->valid[i] = 0;
+}
+
+// Two objects' rays, in lanes 0 to 7 and 8 to 15.
+typedef struct ray_pair {
+    struct RTCRay16 ray;
+    int valid[PAIR * CORNERS] __attribute__((aligned(64)));
+    uint32_t objects[PAIR], count;
+    bool filter;
+} ray_pair;
+
+// Adds rays from the eye to the corners of a box. False, and nothing is added, when a corner is in
+// front of the near plane: such an object is shown.
+static bool add_object(ray_pair *pair, const peer_camera *camera, const occ_box *box)
+{
+    struct RTCRay16 *ray = &pair->ray;
+    for (uint32_t corner = 0; corner < CORNERS; corner++) {
+        uint32_t lane = pair->count * CORNERS + corner;
+        float to[3], depth = 0;
+        for (int k = 0; k < 3; k++) {
+            to[k] = box->center[k] - camera->eye[k];
+            for (int a = 0; a < 3; a++)
+                to[k] += corner >> a & 1 ? box->axis[a][k] : -box->axis[a][k];
+            depth += camera->forward[k] * to[k];
+        }
+        if (!(depth > camera->near_depth)) return false;
+        ray->dir_x[lane] = to[0];
+        ray->dir_y[lane] = to[1];
+        ray->dir_z[lane] = to[2];
+        ray->tnear[lane] = camera->near_depth / depth;
+    }
+    return true;
+}
+
+static void begin_pair(ray_pair *pair, const peer_camera *camera)
+{
+    pair->count = 0;
+    pair->filter = false;
+    for (int i = 0; i < PAIR * CORNERS; i++) {
+        pair->ray.org_x[i] = camera->eye[0];
+        pair->ray.org_y[i] = camera->eye[1];
+        pair->ray.org_z[i] = camera->eye[2];
+        pair->ray.tfar[i] = NEARLY_THERE;
+        pair->ray.time[i] = 0;
+        pair->ray.mask[i] = UINT32_MAX;
+        pair->ray.flags[i] = 0;
+        pair->valid[i] = 0;
+    }
+}
+
+static void trace_pair(const rays_state *state, ray_pair *pair, uint32_t *mask)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.filter = pair->filter ? skip_own : NULL;
+    rtcOccluded16(pair->valid, state->tree.scene, &context, &pair->ray);
+    for (uint32_t i = 0; i < pair->count; i++) {
+        bool hidden = true;
+        for (uint32_t corner = 0; corner < CORNERS; corner++) // blocked: Embree sets -infinity
+            hidden = hidden && pair->ray.tfar[i * CORNERS + corner] < 0;
+        if (hidden) mask[pair->objects[i] / 32] &= ~(UINT32_C(1) << pair->objects[i] % 32);
+    }
+}
+
+static void test_object(const rays_state *state, const peer_camera *camera, ray_pair *pair,
+                        uint32_t object, uint32_t *mask)
+{
+    if (!add_object(pair, camera, &state->boxes.scene->objects[object])) return;
+    for (uint32_t corner = 0; corner < CORNERS; corner++) {
+        pair->ray.id[pair->count * CORNERS + corner] = object;
+        pair->valid[pair->count * CORNERS + corner] = -1;
+    }
+    pair->filter = pair->filter || (state->owning[object / 32] >> object % 32 & 1);
+    pair->objects[pair->count++] = object;
+    if (pair->count < PAIR) return;
+    trace_pair(state, pair, mask);
+    begin_pair(pair, camera);
+}
+
+static void test_blocks(const void *state, const peer_camera *camera, size_t first, size_t end,
+                        uint32_t *mask)
+{
+    unsigned control = peer_float_flush();
+    ray_pair pair;
+    begin_pair(&pair, camera);
+    for (size_t block = first; block < end; block++)
+        for (uint32_t left = mask[block]; left != 0; left &= left - 1) {
+            size_t object = block * PEER_BLOCK + (size_t)__builtin_ctz(left);
+            test_object(state, camera, &pair, (uint32_t)object, mask);
+        }
+    if (pair.count > 0) trace_pair(state, &pair, mask);
+    peer_float_restore(control);
+}
+
+void peer_rays_cull(void *state, const obs_frame *frame, uint32_t *mask, occ_view_stats *stats)
+{
+    rays_state *rays = state;
+    double start = timing_now();
+    peer_camera camera = peer_camera_of(frame);
+    double ready = timing_now();
+    stats->tested = peer_boxes_test(&rays->boxes, &camera, rays->threads, test_blocks, rays, mask);
+    stats->walk_ms = ready - start;
+    stats->test_ms = timing_now() - ready;
+}
