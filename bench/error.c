@@ -25,6 +25,9 @@ static const char error_usage[] =
     "  --scenes DIR   take NAME.obs from here where it is there; else the generators make it\n"
     "  --scene NAME   this scene alone; may be given up to 32 times (default: all)\n"
     "  --quick        scenes of at most 10,000 objects, fewer settings\n"
+    "  --settle N     objects of a result that are put to the exact judge where it and sampling "
+    "do\n"
+    "                 not agree, at most (default 10000; needs a build with GMP)\n"
     "  --repeat R     timed culls of each frame (default 3)\n"
     "\n"
     "Exit status 3 if a method that promises not to hides a visible object, or if backends\n"
@@ -67,10 +70,12 @@ static bool is_name(const char *text)
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_error(int argc, char **argv, error_arguments *arguments)
 {
-    *arguments = (error_arguments){.out = "error", .options = {.repeats = 3}};
+    *arguments =
+        (error_arguments){.out = "error", .options = {.repeats = 3, .settle = SETTLE_DEFAULT}};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--scenes", OPTIONS_TEXT, &arguments->folder},
                                      {"--quick", OPTIONS_FLAG, &arguments->options.is_quick},
+                                     {"--settle", OPTIONS_COUNT, &arguments->options.settle},
                                      {"--repeat", OPTIONS_COUNT, &arguments->options.repeats},
                                      {NULL, OPTIONS_FLAG, NULL}};
     char *words[1];
@@ -161,7 +166,7 @@ int bench_error(int argc, char **argv)
     snprintf(truth_folder, size, "%s/truth", arguments.out);
     arguments.options.has_opencl = error_has_opencl();
     if (!arguments.options.has_opencl) puts("no OpenCL device: the opencl backend is left out");
-    error_table table = {.driver = "none"};
+    error_table table = {.driver = "none", .peer = "none"};
     status = 1;
     if (make_folder(arguments.out) && make_folder(truth_folder)) {
         error_status end = run_scenes(&arguments, truth_folder, &table);

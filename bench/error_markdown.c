@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error_report.h"
 
-#include "build_info.h"
 #include "error_published.h"
 
 #include <string.h>
@@ -125,26 +124,27 @@ static void write_summary(FILE *stream, const error_table *table)
     for (size_t i = 0; i < table->count; i++) {
         const error_row *row = &table->rows[i];
         if (!error_is_summary(row)) continue;
-        char setting[64];
-        error_run_setting(&row->run, setting, sizeof setting);
-        bool is_default = strcmp(setting, "default") == 0;
-        fprintf(stream, "| %s | %s%s%s | %.3f |", row->scene, row->run.method->name,
-                is_default ? "" : ", ", is_default ? "" : setting, row->median_ms);
+        char name[96];
+        error_summary_name(row, name, sizeof name);
+        fprintf(stream, "| %s | %s | %.3f |", row->scene, name, row->median_ms);
         write_errors(stream, row);
         fputc('\n', stream);
     }
 }
 
-void error_write_markdown(FILE *stream, const error_table *table, bool has_plots)
+void error_write_markdown(FILE *stream, const error_options *options, const error_table *table,
+                          bool has_plots)
 {
     fputs("<!-- SPDX-License-Identifier: Apache-2.0 -->\n# Speed against error\n\n"
           "Written by `occlude-bench error`. Times are milliseconds of a frame: the median over "
           "the frames, and the 99th percentile in brackets. Errors are sums over the truth's "
           "frames: *false-hidden* objects can be seen but are reported hidden, *missed* ones are "
           "in the frustum and hidden but reported visible, in per cent of all such objects. "
+          "What sampling and a result did not agree on went to the exact judge, up to the number "
+          "below for each result; the rest counts as sampling has it. "
           "All backends of a line gave the same verdict for every object and frame.\n\n```\n",
           stream);
-    build_info_write(stream, table->driver);
+    error_write_setup(stream, options, table);
     fputs("```\n", stream);
     write_summary(stream, table);
     for (size_t first = 0, last; first < table->count; first = last) {

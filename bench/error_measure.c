@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error_measure.h"
 
+#include "error_judge.h"
 #include "error_scene.h"
 #include "error_truth.h"
 
@@ -13,6 +14,7 @@ typedef struct error_stage {
     const obs_scene *whole;
     obs_scene part;
     truth_result truth, part_truth;
+    error_judge judge, part_judge;
 } error_stage;
 
 // A scene being measured.
@@ -20,9 +22,13 @@ typedef struct worker {
     const char *truth_folder, *name;
     const obs_scene *scene;
     uint64_t identity;
+    uint32_t settle;
     error_table *table;
-    const error_run *first; // of the runs that must be equal, with its verdicts
+    // The latest run whose verdicts are not to equal an earlier one's, with verdicts and errors.
+    const error_run *first;
     vis_result verdicts;
+    compare_sums sums;
+    settle_sums settled;
     error_status status;
 } worker;
 
@@ -33,6 +39,8 @@ static bool is_one(double scale)
 
 static void free_stage(error_stage *stage)
 {
+    error_judge_free(&stage->judge);
+    error_judge_free(&stage->part_judge);
     free(stage->part.frames);
     free(stage->part_truth.frames);
     truth_free(&stage->truth);
@@ -48,6 +56,8 @@ static bool make_stage(const worker *work, double scale, error_stage *stage)
         if (!error_scene_scale(work->scene, scale, &stage->own)) return false;
         stage->whole = &stage->own;
     }
+    stage->judge = (error_judge){.scene = stage->whole, .truth = &stage->truth};
+    stage->part_judge = (error_judge){.scene = &stage->part, .truth = &stage->part_truth};
     return error_truth(work->truth_folder, work->name, stage->whole, &stage->truth) &&
            error_truth_cut(&stage->truth, &stage->part_truth) &&
            error_scene_cut(stage->whole, stage->truth.frames, stage->truth.frame_count,
@@ -73,7 +83,6 @@ static bool fill_row(error_row *row, const measure_result *result, const truth_r
     row->truth_frames = truth->frame_count;
     row->median_ms = sum.median_ms;
     row->p99_ms = sum.p99_ms;
-    row->sums = compare_count(truth, &result->verdicts, NULL, NULL);
     row->build_ms = result->build_ms;
     row->bytes = result->held_bytes + result->device_bytes;
     return true;
@@ -85,42 +94,65 @@ static bool are_same(const vis_result *a, const vis_result *b)
            memcmp(a->bits, b->bits, vis_row_bytes(a->object_count) * a->frame_count) == 0;
 }
 
-// Takes over the verdicts of the first run of its kind; the others must repeat them.
-static void check_verdicts(worker *work, const error_run *run, vis_result *verdicts)
+static void complain(const worker *work, const error_run *run)
 {
-    if (!work->first || !error_run_equals(work->first, run)) {
-        vis_free(&work->verdicts);
-        work->verdicts = *verdicts;
-        *verdicts = (vis_result){0};
-        work->first = run;
-        return;
-    }
-    if (are_same(&work->verdicts, verdicts)) return;
     char setting[64];
     error_run_setting(run, setting, sizeof setting);
     fprintf(stderr,
             "occlude-bench: %s: %s (%s) gives other verdicts on %s with %u threads than on %s\n",
             work->name, run->method->name, setting, run->settings.backend, run->settings.threads,
             work->first->settings.backend);
-    work->status = ERROR_DIFFERENT;
 }
 
-static bool run_on(worker *work, const error_run *run, const error_stage *stage)
+// Puts the run's errors into the row: those of an earlier run with the same verdicts, or counted.
+// The first run of its kind hands over its verdicts; the others must repeat them.
+static bool judge_run(worker *work, const error_run *run, error_judge *judge, vis_result *verdicts,
+                      error_row *row)
+{
+    bool must_repeat = work->first && error_run_equals(work->first, run);
+    if (must_repeat && are_same(&work->verdicts, verdicts)) {
+        row->sums = work->sums;
+        row->settled = work->settled;
+        return true;
+    }
+    if (!error_judge_count(judge, verdicts, work->settle, &row->sums, &row->settled)) return false;
+    if (must_repeat) {
+        complain(work, run);
+        work->status = ERROR_DIFFERENT;
+        return true;
+    }
+    vis_free(&work->verdicts);
+    work->verdicts = *verdicts;
+    *verdicts = (vis_result){0};
+    work->first = run;
+    work->sums = row->sums;
+    work->settled = row->settled;
+    return true;
+}
+
+static void note_driver(error_table *table, const error_run *run, const char *driver)
+{
+    if (strcmp(driver, "none") == 0) return;
+    char *place = run->method->traits & ERROR_ONE_SIDED ? table->driver : table->peer;
+    snprintf(place, sizeof table->driver, "%s", driver);
+}
+
+static bool run_on(worker *work, const error_run *run, error_stage *stage)
 {
     bool is_brief = run->method->traits & ERROR_BRIEF;
     error_row row = begin_row(work, run);
     measure_result result;
     if (!measure_run(&run->settings, is_brief ? &stage->part : stage->whole, &result)) return false;
-    bool good = fill_row(&row, &result, is_brief ? &stage->part_truth : &stage->truth) &&
+    bool good = fill_row(&row, &result, &stage->truth) &&
+                judge_run(work, run, is_brief ? &stage->part_judge : &stage->judge,
+                          &result.verdicts, &row) &&
                 error_table_add(work->table, &row);
-    if (strcmp(result.driver, "none") != 0)
-        memcpy(work->table->driver, result.driver, sizeof result.driver);
-    check_verdicts(work, run, &result.verdicts);
+    note_driver(work->table, run, result.driver);
     measure_free(&result);
     return good;
 }
 
-static bool run_all(worker *work, const error_run *runs, size_t count, const error_stage *usual)
+static bool run_all(worker *work, const error_run *runs, size_t count, error_stage *usual)
 {
     for (size_t i = 0; i < count; i++) {
         const error_run *run = &runs[i];
@@ -149,6 +181,7 @@ error_status error_measure_scene(const error_options *options, const char *truth
                    .name = name,
                    .scene = scene,
                    .identity = error_scene_identity(scene),
+                   .settle = options->settle,
                    .table = table};
     error_stage usual;
     if (!make_stage(&work, 1, &usual) || !run_all(&work, runs, count, &usual))

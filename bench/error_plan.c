@@ -8,6 +8,8 @@ const error_method error_methods[] = {
     {"frustum", ERROR_ONE_SIDED},
     {"single", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED},
     {"pairwise", ERROR_BACKENDS | ERROR_BRIEF | ERROR_ONE_SIDED},
+    {"embree-depth", ERROR_THREADS | ERROR_RAYS},
+    {"embree-rays", ERROR_THREADS},
     {"thesis", ERROR_SCALES | ERROR_BRIEF},
     {NULL, 0}};
 
@@ -30,11 +32,22 @@ static const struct {
 };
 enum { SETTINGS = sizeof error_settings / sizeof *error_settings };
 
+// As the knobs: the first is the default.
+static const struct {
+    uint32_t width, height;
+    bool is_quick;
+} error_rays[] = {{85, 48, true}, {256, 144, true}, {640, 360, false}};
+enum { RAYS = sizeof error_rays / sizeof *error_rays };
+
 // The first is the one that the others are compared with.
 static const struct {
     const char *backend;
     uint32_t threads; // 0: all
-} error_backends[] = {{"plain", 0}, {"openmp", 1}, {"openmp", 0}, {"opencl", 0}};
+    unsigned traits;  // of the methods that run on it: any of these
+} error_backends[] = {{"plain", 0, ERROR_BACKENDS | ERROR_THREADS},
+                      {"openmp", 1, ERROR_BACKENDS},
+                      {"openmp", 0, ERROR_BACKENDS | ERROR_THREADS},
+                      {"opencl", 0, ERROR_BACKENDS}};
 enum { BACKENDS = sizeof error_backends / sizeof *error_backends };
 
 static const double error_scales[] = {0.01, 100};
@@ -61,7 +74,7 @@ static error_run begin(const planner *plan, const error_method *method)
     run.settings.method = method->name;
     run.settings.repeats = method->traits & ERROR_BRIEF ? 1 : plan->options->repeats;
     run.settings.knobs = error_default_knobs;
-    if (method->traits & ERROR_ONE_SIDED) run.settings.backend = "plain";
+    run.settings.backend = "plain";
     run.skipped = measure_complete(&run.settings);
     if (!run.skipped && measure_warning(&run.settings, plan->scene))
         run.skipped = "it tries all pairs and the scene is large";
@@ -84,6 +97,7 @@ static void put(planner *plan, error_run run)
 static void put_backends(planner *plan, error_run run)
 {
     for (int b = 0; b < BACKENDS; b++) {
+        if (!(run.method->traits & error_backends[b].traits)) continue;
         run.settings.backend = error_backends[b].backend;
         run.settings.threads = error_backends[b].threads;
         bool is_missing = strcmp(run.settings.backend, "opencl") == 0 && !plan->options->has_opencl;
@@ -92,7 +106,7 @@ static void put_backends(planner *plan, error_run run)
     }
 }
 
-static void put_settings(planner *plan, error_run run)
+static void put_knobs(planner *plan, error_run run)
 {
     for (int s = 0; s < SETTINGS; s++) {
         if (plan->options->is_quick && !error_settings[s].is_quick) continue;
@@ -101,20 +115,36 @@ static void put_settings(planner *plan, error_run run)
     }
 }
 
-static void put_method(planner *plan, const error_method *method)
+static void put_rays(planner *plan, error_run run)
 {
-    error_run run = begin(plan, method);
-    if (run.skipped || !(method->traits & ERROR_BACKENDS))
-        put(plan, run);
-    else if (method->traits & ERROR_KNOBS)
-        put_settings(plan, run);
-    else
+    for (int r = 0; r < RAYS; r++) {
+        if (plan->options->is_quick && !error_rays[r].is_quick) continue;
+        run.settings.rays_width = error_rays[r].width;
+        run.settings.rays_height = error_rays[r].height;
         put_backends(plan, run);
-    if (run.skipped || !plan->has_scales || !(method->traits & ERROR_SCALES)) return;
+    }
+}
+
+static void put_scales(planner *plan, error_run run)
+{
     for (size_t i = 0; i < sizeof error_scales / sizeof *error_scales; i++) {
         run.scale = error_scales[i];
         put(plan, run);
     }
+}
+
+static void put_method(planner *plan, const error_method *method)
+{
+    error_run run = begin(plan, method);
+    if (run.skipped || !(method->traits & (ERROR_BACKENDS | ERROR_THREADS)))
+        put(plan, run);
+    else if (method->traits & ERROR_KNOBS)
+        put_knobs(plan, run);
+    else if (method->traits & ERROR_RAYS)
+        put_rays(plan, run);
+    else
+        put_backends(plan, run);
+    if (!run.skipped && plan->has_scales && method->traits & ERROR_SCALES) put_scales(plan, run);
 }
 
 size_t error_plan(const error_options *options, const obs_scene *scene,
@@ -133,10 +163,26 @@ static bool are_equal_knobs(const occ_cull_desc *a, const occ_cull_desc *b)
            a->max_occluders == b->max_occluders && a->grain == b->grain;
 }
 
+static bool are_equal_rays(const measure_settings *a, const measure_settings *b)
+{
+    return a->rays_width == b->rays_width && a->rays_height == b->rays_height;
+}
+
 bool error_run_equals(const error_run *a, const error_run *b)
 {
     return a->method == b->method && !(a->scale < b->scale) && !(a->scale > b->scale) &&
-           are_equal_knobs(&a->settings.knobs, &b->settings.knobs);
+           are_equal_knobs(&a->settings.knobs, &b->settings.knobs) &&
+           are_equal_rays(&a->settings, &b->settings);
+}
+
+bool error_run_is_default(const error_run *run)
+{
+    error_run usual = *run;
+    usual.scale = 1;
+    usual.settings.knobs = error_default_knobs;
+    usual.settings.rays_width = error_rays[0].width;
+    usual.settings.rays_height = error_rays[0].height;
+    return error_run_equals(run, &usual);
 }
 
 void error_run_setting(const error_run *run, char *text, size_t size)
@@ -144,6 +190,8 @@ void error_run_setting(const error_run *run, char *text, size_t size)
     const occ_cull_desc *knobs = &run->settings.knobs, *usual = &error_default_knobs;
     if (run->scale < 1 || run->scale > 1)
         snprintf(text, size, "scale %g", run->scale);
+    else if (run->method->traits & ERROR_RAYS)
+        snprintf(text, size, "%ux%u rays", run->settings.rays_width, run->settings.rays_height);
     else if (knobs->min_area < usual->min_area || knobs->min_area > usual->min_area)
         snprintf(text, size, "min_area %g", (double)knobs->min_area);
     else if (knobs->max_occluders != usual->max_occluders)

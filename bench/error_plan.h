@@ -9,10 +9,12 @@
 /// What may be varied of a method, and how it is run.
 typedef enum error_traits {
     ERROR_BACKENDS = 1,  ///< Runs on every backend; their verdicts must be the same.
-    ERROR_KNOBS = 2,     ///< Takes min_area, max_occluders and grain.
-    ERROR_SCALES = 4,    ///< Is shown at scales 0.01, 1 and 100.
-    ERROR_BRIEF = 8,     ///< Slow: once, on the truth's frames alone.
-    ERROR_ONE_SIDED = 16 ///< Promises that nothing visible is reported hidden.
+    ERROR_THREADS = 2,   ///< Runs on one thread and on all; their verdicts must be the same.
+    ERROR_KNOBS = 4,     ///< Takes min_area, max_occluders and grain.
+    ERROR_RAYS = 8,      ///< Takes a size of its buffer of rays.
+    ERROR_SCALES = 16,   ///< Is shown at scales 0.01, 1 and 100.
+    ERROR_BRIEF = 32,    ///< Slow: once, on the truth's frames alone.
+    ERROR_ONE_SIDED = 64 ///< Promises that nothing visible is reported hidden.
 } error_traits;
 
 /// A method that is reported. A new one is a line in error_plan.c.
@@ -38,6 +40,7 @@ typedef struct error_run {
 /// What a plan depends on.
 typedef struct error_options {
     uint32_t repeats;
+    uint32_t settle; ///< Most objects of a result that are put to the exact judge.
     bool is_quick;   ///< Fewer knobs.
     bool has_opencl; ///< There is a device.
 } error_options;
@@ -53,7 +56,10 @@ size_t error_plan(const error_options *options, const obs_scene *scene,
 /// Whether the two must give the same verdicts: one method, one setting, one scale.
 bool error_run_equals(const error_run *a, const error_run *b);
 
-/// What tells a run from the default one: "default", "min_area 0.002", "scale 0.01".
+/// Whether the run is its method's default one, whatever the backend.
+bool error_run_is_default(const error_run *run);
+
+/// What is set: "default", "min_area 0.002", "256x144 rays", "scale 0.01".
 void error_run_setting(const error_run *run, char *text, size_t size);
 
 /// The library's defaults, stated.

@@ -12,7 +12,7 @@
 typedef struct plot_style {
     const char *method, *backend;
     uint32_t threads;   // as planned: 0 means all
-    const char *prefix; // of the settings drawn, beside "default"
+    const char *varied; // what the settings drawn vary, beside the default one
     const char *title;
     unsigned color;
     int shape;
@@ -28,6 +28,8 @@ static const plot_style plot_styles[] = {
     {"single", "opencl", 0, "min_area", "single, OpenCL", 0x00a080, 7, 0.9, true},
     {"pairwise", "openmp", 1, NULL, "pairwise, 1 thread", 0x8040c0, 13, 1.3, false},
     {"frustum", "plain", 0, NULL, "frustum alone, 1 thread", 0x000000, 2, 1.2, false},
+    {"embree-depth", "plain", 0, "rays", "Embree, depth buffer, 1 thread", 0xc06000, 5, 1, true},
+    {"embree-rays", "plain", 0, NULL, "Embree, rays, 1 thread", 0xc06000, 9, 1.2, false},
     {"thesis", "plain", 0, "scale", "thesis of 2019, at scales", 0xc08000, 3, 1.3, false},
 };
 enum { STYLES = sizeof plot_styles / sizeof *plot_styles };
@@ -52,9 +54,7 @@ static bool is_of_style(const error_row *row, const plot_style *style)
         return false;
     char setting[64];
     error_run_setting(run, setting, sizeof setting);
-    bool is_default = strcmp(setting, "default") == 0;
-    return is_default ||
-           (style->prefix && strncmp(setting, style->prefix, strlen(style->prefix)) == 0);
+    return error_run_is_default(run) || (style->varied && strstr(setting, style->varied));
 }
 
 static void add_row(scatter_series *series, const error_row *row)
@@ -120,11 +120,12 @@ bool error_plot_scene(const char *path, const error_table *table, size_t first, 
     scatter_plot plot = {.title = title,
                          .x_label = "milliseconds a frame (median)",
                          .y_label = "hidden objects missed, %",
-                         .bad_title = "red: hides what can be seen",
+                         .bad_title = "red: so many visible ones hidden",
                          .series = series};
     for (int s = 0; s < STYLES; s++)
         add_style(&series[plot.count++], &plot_styles[s], row, last - first);
     const error_published *points = error_published_find(row->scene, row->identity);
+    if (points) plot.note = "* same boxes, another machine";
     for (int s = 0; points && s < PUBLISHED; s++)
         add_published(&series[plot.count++], s, points);
     bool is_drawn = scatter_draw(path, &plot);

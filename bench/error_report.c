@@ -18,24 +18,23 @@ size_t error_scene_end(const error_table *table, size_t first)
 bool error_is_summary(const error_row *row)
 {
     const error_run *run = &row->run;
-    if (run->skipped) return false;
-    char setting[64];
-    error_run_setting(run, setting, sizeof setting);
-    bool is_default = strcmp(setting, "default") == 0;
-    // The thesis's test is one thing at each scale.
-    if (!(run->method->traits & ERROR_ONE_SIDED)) return true;
-    if (!(run->method->traits & ERROR_BACKENDS)) return is_default;
-    return is_default && strcmp(run->settings.backend, "openmp") == 0 && run->settings.threads == 1;
+    const char *backend = run->method->traits & ERROR_BACKENDS ? "openmp" : "plain";
+    if (run->skipped || strcmp(run->settings.backend, backend) != 0) return false;
+    // The thesis's test is another thing at every scale.
+    if (!(run->method->traits & ERROR_ONE_SIDED) && run->method->traits & ERROR_SCALES) return true;
+    bool is_one_thread = !(run->method->traits & ERROR_BACKENDS) || run->settings.threads == 1;
+    return is_one_thread && error_run_is_default(run);
 }
 
-static void summary_name(const error_row *row, char *text, size_t size)
+void error_summary_name(const error_row *row, char *text, size_t size)
 {
+    const error_run *run = &row->run;
     char setting[64];
-    error_run_setting(&row->run, setting, sizeof setting);
-    if (strcmp(setting, "default") == 0)
-        snprintf(text, size, "%s", row->run.method->name);
+    error_run_setting(run, setting, sizeof setting);
+    if (error_run_is_default(run) && !(run->method->traits & ERROR_RAYS))
+        snprintf(text, size, "%s", run->method->name);
     else
-        snprintf(text, size, "%s, %s", row->run.method->name, setting);
+        snprintf(text, size, "%s, %s", run->method->name, setting);
 }
 
 void error_print_summary(FILE *stream, const error_table *table)
@@ -46,11 +45,22 @@ void error_print_summary(FILE *stream, const error_table *table)
         const error_row *row = &table->rows[i];
         if (!error_is_summary(row)) continue;
         char name[96];
-        summary_name(row, name, sizeof name);
+        error_summary_name(row, name, sizeof name);
         fprintf(stream, "%-17s %-28s %10.3f %13llu %9u %9llu %9.3f\n", row->scene, name,
                 row->median_ms, (unsigned long long)row->sums.false_hidden, row->sums.largest_px,
                 (unsigned long long)row->sums.missed, compare_missed_percent(&row->sums));
     }
+}
+
+void error_write_setup(FILE *stream, const error_options *options, const error_table *table)
+{
+    build_info_write(stream, table->driver);
+    fprintf(stream, "# peer=%s\n# repeats=%u\n", table->peer, options->repeats);
+#ifdef OCC_BENCH_JUDGE
+    fprintf(stream, "# settled_at_most=%u\n", options->settle);
+#else
+    fputs("# settled_at_most=0\n", stream);
+#endif
 }
 
 static char *join(const char *folder, const char *name, const char *extension)
@@ -65,19 +75,19 @@ static bool write_csv(const char *path, const error_options *options, const erro
 {
     outfile file;
     if (!outfile_open(&file, path)) return false;
-    build_info_write(file.stream, table->driver);
-    fprintf(file.stream, "# repeats=%u\n", options->repeats);
+    error_write_setup(file.stream, options, table);
     error_csv_header(file.stream);
     for (size_t i = 0; i < table->count; i++)
         error_csv_row(file.stream, &table->rows[i]);
     return outfile_commit(&file);
 }
 
-static bool write_markdown(const char *path, const error_table *table, bool has_plots)
+static bool write_markdown(const char *path, const error_options *options, const error_table *table,
+                           bool has_plots)
 {
     outfile file;
     if (!outfile_open(&file, path)) return false;
-    error_write_markdown(file.stream, table, has_plots);
+    error_write_markdown(file.stream, options, table, has_plots);
     return outfile_commit(&file);
 }
 
@@ -98,7 +108,7 @@ bool error_report(const char *folder, const error_options *options, const error_
 {
     char *csv = join(folder, "error", ".csv"), *markdown = join(folder, "error", ".md");
     bool good = csv && markdown && write_csv(csv, options, table);
-    good = good && write_markdown(markdown, table, draw_scenes(folder, table));
+    good = good && write_markdown(markdown, options, table, draw_scenes(folder, table));
     free(csv);
     free(markdown);
     return good;

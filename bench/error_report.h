@@ -15,7 +15,11 @@ bool error_report(const char *folder, const error_options *options, const error_
 void error_print_summary(FILE *stream, const error_table *table);
 
 /// The report in Markdown, with links to the plots if there are any.
-void error_write_markdown(FILE *stream, const error_table *table, bool has_plots);
+void error_write_markdown(FILE *stream, const error_options *options, const error_table *table,
+                          bool has_plots);
+
+/// Lines `# key=value` on the machine, the build and the options.
+void error_write_setup(FILE *stream, const error_options *options, const error_table *table);
 
 /// Draws the scene of the rows [first, last) into a PNG.
 bool error_plot_scene(const char *path, const error_table *table, size_t first, size_t last);
@@ -26,5 +30,8 @@ size_t error_scene_end(const error_table *table, size_t first);
 /// Whether the run stands for its method in a summary: the default setting on one thread, the
 /// fastest backend that has one.
 bool error_is_summary(const error_row *row);
+
+/// Its method, and what is set of it.
+void error_summary_name(const error_row *row, char *text, size_t size);
 
 #endif

@@ -48,21 +48,44 @@ double error_row_visible(const error_row *row)
 
 void error_csv_header(FILE *stream)
 {
-    fputs("scene,method,backend,threads,min_area_sr,max_occluders,grain,scale,frames,objects,"
+    fputs("scene,method,backend,threads,min_area_sr,max_occluders,grain,rays,scale,frames,objects,"
           "in_frustum_objects,visible_objects,median_ms,p99_ms,false_hidden_objects,largest_px,"
-          "missed_objects,missed_pct,build_ms,memory_bytes,skipped\n",
+          "missed_objects,missed_pct,settled_objects,judged_visible_objects,unsettled_objects,"
+          "false_confirmed_objects,false_refuted_objects,build_ms,memory_bytes,skipped\n",
           stream);
 }
 
 // What does not apply to a run is left empty.
-static void write_knobs(FILE *stream, const error_run *run)
+static void write_setting(FILE *stream, const error_run *run)
 {
-    const occ_cull_desc *knobs = &run->settings.knobs;
+    const measure_settings *settings = &run->settings;
+    const occ_cull_desc *knobs = &settings->knobs;
     if (run->method->traits & ERROR_KNOBS)
-        fprintf(stream, "%g,%u,%u,%g,", (double)knobs->min_area, knobs->max_occluders, knobs->grain,
-                run->scale);
+        fprintf(stream, "%g,%u,%u,", (double)knobs->min_area, knobs->max_occluders, knobs->grain);
     else
-        fprintf(stream, ",,,%g,", run->scale);
+        fputs(",,,", stream);
+    if (run->method->traits & ERROR_RAYS)
+        fprintf(stream, "%ux%u", settings->rays_width, settings->rays_height);
+    fprintf(stream, ",%g,", run->scale);
+}
+
+static void write_count(FILE *stream, uint64_t count)
+{
+    fprintf(stream, "%llu,", (unsigned long long)count);
+}
+
+static void write_errors(FILE *stream, const error_row *row)
+{
+    const settle_sums *settled = &row->settled;
+    write_count(stream, row->sums.false_hidden);
+    write_count(stream, row->sums.largest_px);
+    write_count(stream, row->sums.missed);
+    fprintf(stream, "%.4f,", compare_missed_percent(&row->sums));
+    write_count(stream, settled->settled);
+    write_count(stream, settled->judged_visible);
+    write_count(stream, settled->unsettled);
+    write_count(stream, settled->false_confirmed);
+    write_count(stream, settled->false_refuted);
 }
 
 void error_csv_row(FILE *stream, const error_row *row)
@@ -71,15 +94,14 @@ void error_csv_row(FILE *stream, const error_row *row)
     fprintf(stream, "%s,%s,%s,", row->scene, run->method->name, run->settings.backend);
     if (run->skipped) {
         fputs(",", stream);
-        write_knobs(stream, run);
-        fprintf(stream, ",%u,,,,,,,,,,,\"%s\"\n", row->objects, run->skipped);
+        write_setting(stream, run);
+        fprintf(stream, ",%u,,,,,,,,,,,,,,,,\"%s\"\n", row->objects, run->skipped);
         return;
     }
     fprintf(stream, "%u,", row->threads);
-    write_knobs(stream, run);
+    write_setting(stream, run);
     fprintf(stream, "%u,%u,%.1f,%.1f,%.6f,%.6f,", row->frames, row->objects,
             error_row_in_frustum(row), error_row_visible(row), row->median_ms, row->p99_ms);
-    fprintf(stream, "%llu,%u,%llu,%.4f,%.3f,%llu,\n", (unsigned long long)row->sums.false_hidden,
-            row->sums.largest_px, (unsigned long long)row->sums.missed,
-            compare_missed_percent(&row->sums), row->build_ms, (unsigned long long)row->bytes);
+    write_errors(stream, row);
+    fprintf(stream, "%.3f,%llu,\n", row->build_ms, (unsigned long long)row->bytes);
 }

@@ -6,6 +6,7 @@
 
 #include "compare_count.h"
 #include "error_plan.h"
+#include "settle.h"
 
 #include <stdio.h>
 
@@ -18,7 +19,8 @@ typedef struct error_row {
     uint32_t threads, frames;
     uint32_t truth_frames; ///< Those that `sums` runs over.
     double median_ms, p99_ms;
-    compare_sums sums;
+    compare_sums sums;   ///< By what the judge left of the truth.
+    settle_sums settled; ///< What the judge was asked; zero without a judge.
     double build_ms;
     uint64_t bytes; ///< Host and device memory of scene and view.
 } error_row;
@@ -28,6 +30,7 @@ typedef struct error_table {
     error_row *rows;
     size_t count, capacity;
     char driver[256]; ///< The OpenCL device, or "none".
+    char peer[256];   ///< What the other methods stand on, or "none".
 } error_table;
 
 /// False when memory runs out.

@@ -20,8 +20,8 @@ const error_source error_sources[] = {{"seedscene_500", "seedscene", 500, 1, tru
                                       {"forest_100000", "forest", 100000, 3, false},
                                       {"soup_100000", "soup", 100000, 4, false},
                                       {"interior_10000", "interior", 10000, 5, true},
-                                      {"alphacorp", NULL, 0, 0, true},
-                                      {"institute", NULL, 0, 0, true},
+                                      {"alphacorp", NULL, 0, 0, false},
+                                      {"institute", NULL, 0, 0, false},
                                       {"sponza", NULL, 0, 0, false},
                                       {NULL, NULL, 0, 0, false}};
 

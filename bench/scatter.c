@@ -116,6 +116,14 @@ static void put_text(FILE *stream, const char *command, const char *text)
     fputc('\n', stream);
 }
 
+static void put_note(FILE *stream, const char *note)
+{
+    fputs("set label ", stream);
+    plot_quote(stream, note);
+    fprintf(stream, " at screen %.5f, screen %.5f left font ',9' textcolor rgb '#404040'\n",
+            (SCATTER_RIGHT + 12.0) / SCATTER_WIDTH, (double)SCATTER_BOTTOM / SCATTER_HEIGHT);
+}
+
 static void put_scatter(FILE *stream, const char *path, const void *data)
 {
     const scatter_plot *plot = data;
@@ -123,7 +131,7 @@ static void put_scatter(FILE *stream, const char *path, const void *data)
     put_data(stream, plot, &axes);
     fprintf(stream,
             "set terminal pngcairo size %d,%d noenhanced font 'sans,10'\nset logscale xy\n"
-            "set grid linecolor rgb '#dddddd'\n"
+            "set grid xtics ytics linetype 1 linewidth 1 linecolor rgb '#e0e0e0'\n"
             "set key at screen %.5f, screen %.5f left top Left reverse samplen 2 spacing 1.25 font "
             "',9'\n",
             SCATTER_WIDTH, SCATTER_HEIGHT, (SCATTER_RIGHT + 8.0) / SCATTER_WIDTH,
@@ -134,6 +142,7 @@ static void put_scatter(FILE *stream, const char *path, const void *data)
     put_text(stream, "set ylabel", plot->y_label);
     put_axes(stream, &axes);
     put_labels(stream, plot, &axes);
+    if (plot->note) put_note(stream, plot->note);
     put_curves(stream, plot);
 }
 

@@ -31,6 +31,7 @@ typedef struct scatter_series {
 typedef struct scatter_plot {
     const char *title, *x_label, *y_label;
     const char *bad_title; ///< What red means, for the legend.
+    const char *note;      ///< A line below the legend, or NULL.
     scatter_series *series;
     size_t count;
 } scatter_plot;

@@ -6,7 +6,7 @@
 
 // In pixels: half the side of a point, and a label's letters.
 #define POINT_REACH 5.0
-#define LETTER      6.3
+#define LETTER      7.0
 #define LINE        13.0
 
 enum { MAX_POINTS = SCATTER_MAX_SERIES * SCATTER_MAX_POINTS };
