@@ -86,6 +86,21 @@ double steady_exp(double x)
     return ldexp(sum, (int)n);
 }
 
+// x is 2^n m with m next to 1, and log m = 2 artanh((m - 1) / (m + 1)).
+double steady_log(double x)
+{
+    int n;
+    double m = frexp(x, &n);
+    if (m < 0.70710678118654752440) {
+        m *= 2;
+        n--;
+    }
+    double part = (m - 1) / (m + 1), square = part * part, sum = 0;
+    for (int k = 23; k >= 1; k -= 2)
+        sum = sum * square + 1.0 / k;
+    return 2 * part * sum + n * 0x1.a39ef35793c76p-33 + n * 0x1.62e42feep-1;
+}
+
 double steady_cbrt(double x)
 {
     if (!(x > 0)) return 0;

@@ -35,6 +35,9 @@ double steady_cos(double x);
 /// e to the x, for |x| up to 700, to a relative 1e-15.
 double steady_exp(double x);
 
+/// The natural logarithm of x > 0, normal and finite, to 1e-15 of it or of 1.
+double steady_log(double x);
+
 /// The cube root of x >= 0, to a relative 1e-15.
 double steady_cbrt(double x);
 

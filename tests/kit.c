@@ -13,10 +13,7 @@
 
 uint64_t kit_next(kit_random *random)
 {
-    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
+    return steady_bits(random);
 }
 
 uint32_t kit_below(kit_random *random, uint32_t count)

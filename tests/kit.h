@@ -4,6 +4,8 @@
 #ifndef OCC_TEST_KIT_H
 #define OCC_TEST_KIT_H
 
+#include "steady.h"
+
 #include <check.h>
 #include <occlude/occlude.h>
 #include <string.h>
@@ -20,10 +22,7 @@ static inline bool kit_same_bits(const void *a, const void *b, size_t size)
     return memcmp(a, b, size) == 0;
 }
 
-// SplitMix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014).
-typedef struct kit_random {
-    uint64_t state;
-} kit_random;
+typedef steady_random kit_random;
 
 uint64_t kit_next(kit_random *random);
 uint32_t kit_below(kit_random *random, uint32_t count);

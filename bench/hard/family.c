@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "family.h"
+
+#include "families.h"
+
+#include <string.h>
+
+#define FAMILY_ENTRY(name, brief) {#name, brief, family_##name},
+const family families[] = {FAMILY_LIST(FAMILY_ENTRY){NULL, NULL, NULL}};
+
+const family *family_find(const char *name)
+{
+    for (const family *f = families; f->name; f++)
+        if (strcmp(f->name, name) == 0) return f;
+    return NULL;
+}
+
+uint32_t family_count(void)
+{
+    return sizeof families / sizeof *families - 1;
+}
+
+void family_aim(family_world *world)
+{
+    if (world->camera.eye) world->camera.eye = world->eye;
+    if (world->camera.origin) world->camera.origin = world->origin;
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What the families build their worlds on: a place of their own, in whose units all numbers are
+/// small, with the camera near its origin. The stage turns, scales and moves what is put on it.
+///
+/// The world is place + unit * turn * local. `turn` has small whole numbers in it, its columns are
+/// at right angles and equally long, and `unit` has eight bits: multiples of 1/16 up to some
+/// hundred come out exact in float, and a multiple of 1 at a distance where floats can tell units
+/// apart.
+#ifndef OCC_HARD_STAGE_H
+#define OCC_HARD_STAGE_H
+
+#include "family.h"
+
+/// A box in the stage's own coordinates.
+typedef struct stage_box {
+    double center[3], axis[3][3];
+} stage_box;
+
+typedef struct stage {
+    family_world *world;
+    steady_random random;
+    double turn[3][3], unit, place[3];
+    double length;                         ///< Of one local unit, in world units.
+    double eye[3], back[3];                ///< Of the camera; `back` is against its direction.
+    bool parallel;                         ///< The camera is orthographic.
+    stage_box occluders[FAMILY_OCCLUDERS]; ///< As they were put up.
+} stage;
+
+/// Empties the world and draws the turn.
+void stage_begin(stage *s, family_world *world, const family_place *place, const char *name);
+
+/// In a quarter of the worlds, moves some of the boxes' numbers to a neighbouring float.
+void stage_end(stage *s);
+
+// --- numbers -------------------------------------------------------------------------------------
+
+/// One in `count`.
+bool stage_chance(stage *s, uint32_t count);
+
+/// A whole number from `low` to `high`, both included.
+double stage_whole(stage *s, int low, int high);
+
+/// A multiple of 1/16 from `low` to `high`, both included.
+double stage_part(stage *s, double low, double high);
+
+/// 1 or -1.
+double stage_sign(stage *s);
+
+// --- boxes ---------------------------------------------------------------------------------------
+
+/// Aligned with the stage's axes.
+stage_box stage_brick(double x, double y, double z, double a, double b, double c);
+
+/// From one corner to the opposite one.
+stage_box stage_between(const double low[3], const double high[3]);
+
+/// Of any shape, around a point.
+stage_box stage_any(stage *s, world_shape shape, const double center[3], double size);
+
+/// The corner whose bit k says which end of axis k it is at.
+void stage_corner(const stage_box *box, unsigned corner, double out[3]);
+
+/// Puts a box up and returns its number, or -1 if there is no room.
+int stage_object(stage *s, stage_box box);
+int stage_occluder(stage *s, stage_box box, int owner);
+
+// --- the camera ----------------------------------------------------------------------------------
+
+/// Any lens, half of them plain perspective.
+world_lens stage_lens(stage *s);
+
+/// The camera at `eye`, straight along -z if `target` is NULL. Lengths of the lens are local.
+void stage_look(stage *s, const double eye[3], const double target[3], const world_lens *lens);
+
+// --- crowds --------------------------------------------------------------------------------------
+
+/// Objects until there are `count`: behind the occluders, on the rims of their shadows, touching
+/// them, and anywhere in the picture. `shape` is WORLD_SHAPES for any.
+void stage_crowd(stage *s, uint32_t count, world_shape shape);
+
+/// An object on the line from the eye through a point inside an occluder, `times` as far.
+void stage_behind(stage *s, int occluder, double times, world_shape shape);
+
+/// An aligned object that touches the plane through the eye and an edge of an occluder, or the ray
+/// through its corner, from inside or outside of the shadow.
+void stage_on_rim(stage *s, int occluder);
+
+#endif
