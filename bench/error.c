@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "commands.h"
 
+#include "error_hard.h"
 #include "error_measure.h"
 #include "error_report.h"
 #include "error_scene.h"
@@ -23,8 +24,10 @@ static const char error_usage[] =
     "\n"
     "  --out DIR      where to (default error); truths are kept in DIR/truth\n"
     "  --scenes DIR   take NAME.obs from here where it is there; else the generators make it\n"
-    "  --scene NAME   this scene alone; may be given up to 32 times (default: all)\n"
-    "  --quick        scenes of at most 10,000 objects, fewer settings\n"
+    "  --scene NAME   this scene alone; may be given up to 32 times (default: all, and the hard\n"
+    "                 families)\n"
+    "  --hard         the hard families too where scenes are named\n"
+    "  --quick        scenes of at most 10,000 objects, fewer settings and worlds\n"
     "  --settle N     objects of a result that are put to the exact judge where it and sampling "
     "do\n"
     "                 not agree, at most (default 10000; needs a build with GMP)\n"
@@ -41,6 +44,7 @@ typedef struct error_arguments {
     const char *out, *folder;
     const char *scenes[MAX_SCENES]; // none: all
     int scene_count;
+    bool wants_hard; // though scenes are named
     error_options options;
 } error_arguments;
 
@@ -74,6 +78,7 @@ static int parse_error(int argc, char **argv, error_arguments *arguments)
         (error_arguments){.out = "error", .options = {.repeats = 3, .settle = SETTLE_DEFAULT}};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--scenes", OPTIONS_TEXT, &arguments->folder},
+                                     {"--hard", OPTIONS_FLAG, &arguments->wants_hard},
                                      {"--quick", OPTIONS_FLAG, &arguments->options.is_quick},
                                      {"--settle", OPTIONS_COUNT, &arguments->options.settle},
                                      {"--repeat", OPTIONS_COUNT, &arguments->options.repeats},
@@ -141,17 +146,42 @@ static error_status run_scenes(const error_arguments *arguments, const char *tru
     return worst;
 }
 
-static int report(const error_arguments *arguments, const error_table *table, error_status status)
+static int report(const char *folder, const error_findings *findings, error_status status)
 {
-    if (!error_report(arguments->out, &arguments->options, table)) return 1;
-    error_print_summary(stdout, table);
-    uint64_t broken = error_table_broken_promises(table);
+    if (!error_report(folder, findings)) return 1;
+    error_print_summary(stdout, findings);
+    uint64_t broken = error_table_broken_promises(&findings->scenes) +
+                      error_table_broken_promises(&findings->hard);
     if (broken > 0)
         fprintf(stderr,
                 "occlude-bench: %llu visible objects are reported hidden by methods that "
                 "promise not to\n",
                 (unsigned long long)broken);
     return broken > 0 || status == ERROR_DIFFERENT ? STATUS_FALSE_HIDDEN : 0;
+}
+
+static error_status run_hard(error_findings *findings)
+{
+    double start = timing_now();
+    error_status status = error_hard(&findings->options, &findings->hard);
+    if (findings->hard.count > 0)
+        printf("hard families: %zu runs in %.1f s\n", findings->hard.count,
+               (timing_now() - start) / 1000);
+    return status;
+}
+
+static int run(const error_arguments *arguments, const char *truth_folder, error_findings *findings)
+{
+    if (!make_folder(arguments->out) || !make_folder(truth_folder)) return 1;
+    error_status status = run_scenes(arguments, truth_folder, &findings->scenes);
+    if (status == ERROR_UNUSABLE) return 1;
+    bool wants_hard = arguments->scene_count == 0 || arguments->wants_hard;
+    if (wants_hard) {
+        error_status end = run_hard(findings);
+        if (end == ERROR_UNUSABLE) return 1;
+        if (end != ERROR_GOOD) status = end;
+    }
+    return report(arguments->out, findings, status);
 }
 
 int bench_error(int argc, char **argv)
@@ -166,13 +196,11 @@ int bench_error(int argc, char **argv)
     snprintf(truth_folder, size, "%s/truth", arguments.out);
     arguments.options.has_opencl = error_has_opencl();
     if (!arguments.options.has_opencl) puts("no OpenCL device: the opencl backend is left out");
-    error_table table = {.driver = "none", .peer = "none"};
-    status = 1;
-    if (make_folder(arguments.out) && make_folder(truth_folder)) {
-        error_status end = run_scenes(&arguments, truth_folder, &table);
-        if (end != ERROR_UNUSABLE) status = report(&arguments, &table, end);
-    }
-    error_table_free(&table);
+    error_findings findings = {.options = arguments.options,
+                               .scenes = {.driver = "none", .peer = "none"}};
+    status = run(&arguments, truth_folder, &findings);
+    error_table_free(&findings.scenes);
+    error_table_free(&findings.hard);
     free(truth_folder);
     return status;
 }

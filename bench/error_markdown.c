@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error_report.h"
 
+#include "error_hard.h"
 #include "error_published.h"
 
 #include <string.h>
@@ -132,9 +133,9 @@ static void write_summary(FILE *stream, const error_table *table)
     }
 }
 
-void error_write_markdown(FILE *stream, const error_options *options, const error_table *table,
-                          bool has_plots)
+void error_write_markdown(FILE *stream, const error_findings *findings, bool has_plots)
 {
+    const error_table *table = &findings->scenes;
     fputs("<!-- SPDX-License-Identifier: Apache-2.0 -->\n# Speed against error\n\n"
           "Written by `occlude-bench error`. Times are milliseconds of a frame: the median over "
           "the frames, and the 99th percentile in brackets. Errors are sums over the truth's "
@@ -144,11 +145,12 @@ void error_write_markdown(FILE *stream, const error_options *options, const erro
           "below for each result; the rest counts as sampling has it. "
           "All backends of a line gave the same verdict for every object and frame.\n\n```\n",
           stream);
-    error_write_setup(stream, options, table);
+    error_write_setup(stream, findings);
     fputs("```\n", stream);
     write_summary(stream, table);
     for (size_t first = 0, last; first < table->count; first = last) {
         last = error_scene_end(table, first);
         write_scene(stream, table, first, last, has_plots);
     }
+    error_hard_markdown(stream, &findings->hard, has_plots);
 }

@@ -81,6 +81,7 @@ static bool fill_row(error_row *row, const measure_result *result, const truth_r
     row->threads = result->threads;
     row->frames = result->frame_count;
     row->truth_frames = truth->frame_count;
+    row->is_timed = true;
     row->median_ms = sum.median_ms;
     row->p99_ms = sum.p99_ms;
     row->build_ms = result->build_ms;

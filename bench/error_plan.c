@@ -50,7 +50,9 @@ static const struct {
                       {"opencl", 0, ERROR_BACKENDS}};
 enum { BACKENDS = sizeof error_backends / sizeof *error_backends };
 
+// Beside 1.
 static const double error_scales[] = {0.01, 100};
+enum { SCALES = sizeof error_scales / sizeof *error_scales };
 
 // A plan being made.
 typedef struct planner {
@@ -127,7 +129,7 @@ static void put_rays(planner *plan, error_run run)
 
 static void put_scales(planner *plan, error_run run)
 {
-    for (size_t i = 0; i < sizeof error_scales / sizeof *error_scales; i++) {
+    for (size_t i = 0; i < SCALES; i++) {
         run.scale = error_scales[i];
         put(plan, run);
     }
@@ -154,6 +156,24 @@ size_t error_plan(const error_options *options, const obs_scene *scene,
     plan.has_scales = can_run_thesis(&plan);
     for (const error_method *method = error_methods; method->name; method++)
         put_method(&plan, method);
+    return plan.count;
+}
+
+size_t error_plan_hard(const error_options *options, error_run runs[ERROR_MAX_RUNS])
+{
+    const obs_scene small = {0};
+    planner plan = {.options = options, .scene = &small, .runs = runs};
+    for (const error_method *method = error_methods; method->name; method++) {
+        error_run run = begin(&plan, method);
+        bool has_backends = !run.skipped && method->traits & ERROR_BACKENDS;
+        for (size_t i = 0; i <= SCALES; i++) {
+            run.scale = i == 0 ? 1 : error_scales[i - 1];
+            if (has_backends)
+                put_backends(&plan, run);
+            else
+                put(&plan, run);
+        }
+    }
     return plan.count;
 }
 

@@ -53,6 +53,9 @@ enum { ERROR_MAX_RUNS = 96 };
 size_t error_plan(const error_options *options, const obs_scene *scene,
                   error_run runs[ERROR_MAX_RUNS]);
 
+/// The same for the hard families: every method at its default setting and scales 1, 0.01 and 100.
+size_t error_plan_hard(const error_options *options, error_run runs[ERROR_MAX_RUNS]);
+
 /// Whether the two must give the same verdicts: one method, one setting, one scale.
 bool error_run_equals(const error_run *a, const error_run *b);
 

@@ -2,6 +2,7 @@
 #include "error_report.h"
 
 #include "build_info.h"
+#include "error_hard.h"
 #include "outfile.h"
 
 #include <stdlib.h>
@@ -37,8 +38,9 @@ void error_summary_name(const error_row *row, char *text, size_t size)
         snprintf(text, size, "%s, %s", run->method->name, setting);
 }
 
-void error_print_summary(FILE *stream, const error_table *table)
+void error_print_summary(FILE *stream, const error_findings *findings)
 {
+    const error_table *table = &findings->scenes;
     fprintf(stream, "\n%-17s %-28s %10s %13s %9s %9s %9s\n", "scene", "method, one thread",
             "median_ms", "false_hidden", "largest", "missed", "missed_%");
     for (size_t i = 0; i < table->count; i++) {
@@ -50,12 +52,14 @@ void error_print_summary(FILE *stream, const error_table *table)
                 row->median_ms, (unsigned long long)row->sums.false_hidden, row->sums.largest_px,
                 (unsigned long long)row->sums.missed, compare_missed_percent(&row->sums));
     }
+    error_hard_summary(stream, &findings->hard);
 }
 
-void error_write_setup(FILE *stream, const error_options *options, const error_table *table)
+void error_write_setup(FILE *stream, const error_findings *findings)
 {
-    build_info_write(stream, table->driver);
-    fprintf(stream, "# peer=%s\n# repeats=%u\n", table->peer, options->repeats);
+    const error_options *options = &findings->options;
+    build_info_write(stream, findings->scenes.driver);
+    fprintf(stream, "# peer=%s\n# repeats=%u\n", findings->scenes.peer, options->repeats);
 #ifdef OCC_BENCH_JUDGE
     fprintf(stream, "# settled_at_most=%u\n", options->settle);
 #else
@@ -71,44 +75,54 @@ static char *join(const char *folder, const char *name, const char *extension)
     return path;
 }
 
-static bool write_csv(const char *path, const error_options *options, const error_table *table)
+static void write_rows(FILE *stream, const error_table *table)
 {
-    outfile file;
-    if (!outfile_open(&file, path)) return false;
-    error_write_setup(file.stream, options, table);
-    error_csv_header(file.stream);
     for (size_t i = 0; i < table->count; i++)
-        error_csv_row(file.stream, &table->rows[i]);
-    return outfile_commit(&file);
+        error_csv_row(stream, &table->rows[i]);
 }
 
-static bool write_markdown(const char *path, const error_options *options, const error_table *table,
-                           bool has_plots)
+static bool write_csv(const char *path, const error_findings *findings)
 {
     outfile file;
     if (!outfile_open(&file, path)) return false;
-    error_write_markdown(file.stream, options, table, has_plots);
+    error_write_setup(file.stream, findings);
+    error_csv_header(file.stream);
+    write_rows(file.stream, &findings->scenes);
+    write_rows(file.stream, &findings->hard);
     return outfile_commit(&file);
 }
 
-// False if there is a scene without a plot.
-static bool draw_scenes(const char *folder, const error_table *table)
+static bool write_markdown(const char *path, const error_findings *findings, bool has_plots)
 {
-    for (size_t first = 0, last; first < table->count; first = last) {
+    outfile file;
+    if (!outfile_open(&file, path)) return false;
+    error_write_markdown(file.stream, findings, has_plots);
+    return outfile_commit(&file);
+}
+
+// False if there is one without a plot.
+static bool draw_all(const char *folder, const error_findings *findings)
+{
+    const error_table *table = &findings->scenes;
+    bool is_drawn = true;
+    for (size_t first = 0, last; is_drawn && first < table->count; first = last) {
         last = error_scene_end(table, first);
         char *path = join(folder, table->rows[first].scene, ".png");
-        bool is_drawn = path && error_plot_scene(path, table, first, last);
+        is_drawn = path && error_plot_scene(path, table, first, last);
         free(path);
-        if (!is_drawn) return false;
     }
-    return true;
+    if (!is_drawn || findings->hard.count == 0) return is_drawn;
+    char *path = join(folder, "hard", ".png");
+    is_drawn = path && error_hard_plot(path, &findings->hard);
+    free(path);
+    return is_drawn;
 }
 
-bool error_report(const char *folder, const error_options *options, const error_table *table)
+bool error_report(const char *folder, const error_findings *findings)
 {
     char *csv = join(folder, "error", ".csv"), *markdown = join(folder, "error", ".md");
-    bool good = csv && markdown && write_csv(csv, options, table);
-    good = good && write_markdown(markdown, options, table, draw_scenes(folder, table));
+    bool good = csv && markdown && write_csv(csv, findings);
+    good = good && write_markdown(markdown, findings, draw_all(folder, findings));
     free(csv);
     free(markdown);
     return good;

@@ -6,20 +6,26 @@
 
 #include "error_row.h"
 
-/// Writes FOLDER/error.csv, FOLDER/error.md and a FOLDER/SCENE.png for each scene. Plots are left
+/// What is reported.
+typedef struct error_findings {
+    error_options options;
+    error_table scenes, hard; ///< The named scenes; the hard families, or empty.
+} error_findings;
+
+/// Writes FOLDER/error.csv, FOLDER/error.md, a FOLDER/SCENE.png for each scene and FOLDER/hard.png.
+/// Plots are left
 /// out, after a message, where gnuplot is missing. False after a message when a file cannot be
 /// written.
-bool error_report(const char *folder, const error_options *options, const error_table *table);
+bool error_report(const char *folder, const error_findings *findings);
 
 /// A line for each scene and method at its default setting.
-void error_print_summary(FILE *stream, const error_table *table);
+void error_print_summary(FILE *stream, const error_findings *findings);
 
 /// The report in Markdown, with links to the plots if there are any.
-void error_write_markdown(FILE *stream, const error_options *options, const error_table *table,
-                          bool has_plots);
+void error_write_markdown(FILE *stream, const error_findings *findings, bool has_plots);
 
 /// Lines `# key=value` on the machine, the build and the options.
-void error_write_setup(FILE *stream, const error_options *options, const error_table *table);
+void error_write_setup(FILE *stream, const error_findings *findings);
 
 /// Draws the scene of the rows [first, last) into a PNG.
 bool error_plot_scene(const char *path, const error_table *table, size_t first, size_t last);

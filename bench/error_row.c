@@ -100,8 +100,15 @@ void error_csv_row(FILE *stream, const error_row *row)
     }
     fprintf(stream, "%u,", row->threads);
     write_setting(stream, run);
-    fprintf(stream, "%u,%u,%.1f,%.1f,%.6f,%.6f,", row->frames, row->objects,
-            error_row_in_frustum(row), error_row_visible(row), row->median_ms, row->p99_ms);
+    fprintf(stream, "%u,%u,%.1f,%.1f,", row->frames, row->objects, error_row_in_frustum(row),
+            error_row_visible(row));
+    if (row->is_timed)
+        fprintf(stream, "%.6f,%.6f,", row->median_ms, row->p99_ms);
+    else
+        fputs(",,", stream);
     write_errors(stream, row);
-    fprintf(stream, "%.3f,%llu,\n", row->build_ms, (unsigned long long)row->bytes);
+    if (row->is_timed)
+        fprintf(stream, "%.3f,%llu,\n", row->build_ms, (unsigned long long)row->bytes);
+    else
+        fputs(",,\n", stream);
 }

@@ -18,6 +18,7 @@ typedef struct error_row {
     uint64_t identity; ///< Of the scene at scale 1.
     uint32_t threads, frames;
     uint32_t truth_frames; ///< Those that `sums` runs over.
+    bool is_timed;         ///< Else there are errors alone: times, `build_ms` and `bytes` are 0.
     double median_ms, p99_ms;
     compare_sums sums;   ///< By what the judge left of the truth.
     settle_sums settled; ///< What the judge was asked; zero without a judge.
