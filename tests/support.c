@@ -3,7 +3,6 @@
 
 #include "support.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,6 +62,11 @@ static bool is_set(const char *name)
            strcmp(value, "false") != 0;
 }
 
+bool test_must_have_device(void)
+{
+    return is_set("CI") || is_set("OCC_REQUIRE_OPENCL");
+}
+
 int test_skip_without_device(void)
 {
     pid_t child = fork();
@@ -74,5 +78,5 @@ int test_skip_without_device(void)
         return 0;
     }
     fprintf(stderr, "no OpenCL device\n");
-    return is_set("CI") || is_set("OCC_REQUIRE_OPENCL") ? EXIT_FAILURE : 77;
+    return test_must_have_device() ? EXIT_FAILURE : 77;
 }

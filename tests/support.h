@@ -4,9 +4,13 @@
 #define OCC_TEST_SUPPORT_H
 
 #include <check.h>
+#include <stdbool.h>
 
 // Runs the suite, or the case of it that CK_RUN_CASE names. Returns what main is to return.
 int test_run_suite(Suite *suite);
+
+// Whether OCC_REQUIRE_OPENCL=1 or CI is set.
+bool test_must_have_device(void);
 
 // 0 if an OpenCL device is present; otherwise says so and returns what main is to return: 77, which
 // ctest counts as skipped, or 1 where OCC_REQUIRE_OPENCL=1 or CI is set and a skip would hide that

@@ -63,12 +63,12 @@ void stage_on_rim(stage *s, int occluder)
 static void touching(stage *s, int occluder)
 {
     const stage_box *box = &s->occluders[occluder];
+    const double *at = box->center;
     double depth = stage_part(s, 0, 2), reach = fabs(box->axis[2][2]) + depth;
-    double side = stage_sign(s) * (stage_chance(s, 8) ? -1.0 : 1.0);
-    stage_object(s,
-                 stage_brick(box->center[0] + stage_whole(s, -1, 1),
-                             box->center[1] + stage_whole(s, -1, 1), box->center[2] + side * reach,
-                             stage_part(s, 0, 2), stage_part(s, 0, 2), depth));
+    if (!stage_chance(s, 4)) reach = -reach;
+    stage_object(s, stage_any_brick(s, stage_ones(at[0] - 1, at[0] + 1),
+                                    stage_ones(at[1] - 1, at[1] + 1), stage_just(at[2] + reach),
+                                    stage_parts(0, 2), stage_parts(0, 2), stage_just(depth)));
 }
 
 static void anywhere(stage *s, world_shape shape)

@@ -51,6 +51,10 @@ typedef struct family {
 /// All families; the last entry has no name.
 extern const family families[];
 
+/// The places that tests and bench go over: all scales and distances in turn, 28 of them, and the
+/// number as the seed.
+family_place family_sweep(uint64_t number);
+
 /// The family of that name, or NULL.
 const family *family_find(const char *name);
 

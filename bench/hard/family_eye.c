@@ -2,39 +2,39 @@
 // Families that live from where the eye is.
 #include "families.h"
 
-// An eye at a whole point near the origin, and any camera from there: straight in half of them.
 static void look(stage *s)
 {
-    double eye[3], target[3];
     world_lens lens = stage_lens(s);
-    for (int j = 0; j < 3; j++) {
-        eye[j] = stage_whole(s, -2, 2);
-        target[j] = eye[j] + (j == 2 ? -16.0 : stage_part(s, -8, 8));
-    }
-    stage_look(s, eye, stage_chance(s, 2) ? target : NULL, &lens);
+    stage_look_about(s, 8, &lens);
+}
+
+// Whole numbers around one of the eye's coordinates.
+static stage_range about(const stage *s, int axis, double low, double high)
+{
+    return stage_ones(s->eye[axis] + low, s->eye[axis] + high);
 }
 
 // Some occluder straight ahead, at a whole distance.
 static int ahead(stage *s, int nearest, int farthest)
 {
-    double half[3] = {stage_whole(s, 1, 6), stage_whole(s, 1, 6),
-                      stage_chance(s, 2) ? 0.0 : stage_whole(s, 1, 3)};
-    return stage_occluder(s,
-                          stage_brick(s->eye[0] + stage_whole(s, -4, 4),
-                                      s->eye[1] + stage_whole(s, -4, 4),
-                                      s->eye[2] - half[2] - stage_whole(s, nearest, farthest),
-                                      half[0], half[1], half[2]),
-                          -1);
+    double c = stage_chance(s, 2) ? 0.0 : stage_whole(s, 1, 3);
+    const stage_range size = stage_ones(1, 6);
+    stage_box box = stage_any_brick(s, about(s, 0, -4, 4), about(s, 1, -4, 4),
+                                    about(s, 2, -farthest, -nearest), size, size, stage_just(c));
+    box.center[2] -= c;
+    return stage_occluder(s, box, -1);
 }
 
 // A box ahead, of whole numbers, of which some faces' planes across x and y hold the eye.
 static stage_box level_box(stage *s, bool in_x, bool in_y)
 {
-    double a = stage_whole(s, 1, 6), b = stage_whole(s, 1, 6), c = stage_whole(s, 1, 6);
-    double x = in_x ? stage_sign(s) * a : stage_whole(s, -6, 6);
-    double y = in_y ? stage_sign(s) * b : stage_whole(s, -6, 6);
-    return stage_brick(s->eye[0] + x, s->eye[1] + y, s->eye[2] - c - stage_whole(s, 2, 16), a, b,
-                       c);
+    const stage_range size = stage_ones(1, 6);
+    stage_box box = stage_any_brick(s, about(s, 0, -6, 6), about(s, 1, -6, 6), about(s, 2, -16, -2),
+                                    size, size, size);
+    box.center[2] -= box.axis[2][2];
+    if (in_x) box.center[0] = s->eye[0] + stage_sign(s) * box.axis[0][0];
+    if (in_y) box.center[1] = s->eye[1] + stage_sign(s) * box.axis[1][1];
+    return box;
 }
 
 FAMILY(eye_face_plane)
@@ -71,35 +71,41 @@ FAMILY(eye_edge_line)
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
 }
 
-// A box with a corner at the eye, in the octant of the signs.
-static stage_box cornered(stage *s, double x, double y, double z)
+// A box with a corner at the eye, ahead of it or in any octant.
+static stage_box cornered(stage *s, bool is_ahead)
 {
-    double a = stage_whole(s, 1, 6), b = stage_whole(s, 1, 6), c = stage_whole(s, 1, 6);
-    return stage_brick(s->eye[0] + x * a, s->eye[1] + y * b, s->eye[2] + z * c, a, b, c);
+    const stage_range size = stage_ones(1, 6);
+    stage_box box =
+        stage_any_brick(s, stage_just(0), stage_just(0), stage_just(0), size, size, size);
+    for (int j = 0; j < 3; j++) {
+        double sign = j == 2 && is_ahead ? -1.0 : stage_sign(s);
+        box.center[j] = s->eye[j] + sign * box.axis[j][j];
+    }
+    return box;
 }
 
 FAMILY(eye_corner)
 {
     look(s);
     for (uint32_t i = 0, boxes = 1 + steady_below(&s->random, 3); i < boxes; i++)
-        stage_occluder(s, cornered(s, stage_sign(s), stage_sign(s), stage_sign(s)), -1);
+        stage_occluder(s, cornered(s, false), -1);
     ahead(s, 8, 16);
     ahead(s, 8, 16);
-    stage_object(s, cornered(s, stage_sign(s), stage_sign(s), -1));
+    stage_object(s, cornered(s, true));
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
 }
 
-// Around the eye: wholly, or with the eye on one of its faces or edges.
+// Around the eye: wholly, or with the eye on some of its faces.
 static stage_box around(stage *s, int smallest, int largest)
 {
-    double half[3], from[3];
+    const stage_range size = stage_ones(smallest, largest);
+    stage_box box =
+        stage_any_brick(s, stage_just(0), stage_just(0), stage_just(0), size, size, size);
     for (int j = 0; j < 3; j++) {
-        half[j] = stage_whole(s, smallest, largest);
-        from[j] =
-            stage_chance(s, 4) ? stage_sign(s) * half[j] : 0.5 * half[j] * stage_whole(s, -1, 1);
+        double part = stage_chance(s, 4) ? stage_sign(s) : 0.5 * stage_whole(s, -1, 1);
+        box.center[j] = s->eye[j] + part * box.axis[j][j];
     }
-    return stage_brick(s->eye[0] + from[0], s->eye[1] + from[1], s->eye[2] + from[2], half[0],
-                       half[1], half[2]);
+    return box;
 }
 
 FAMILY(eye_in_occluder)
@@ -107,9 +113,8 @@ FAMILY(eye_in_occluder)
     look(s);
     for (uint32_t i = 0, boxes = 1 + steady_below(&s->random, 2); i < boxes; i++)
         stage_occluder(s, around(s, 2, 8), -1);
-    if (stage_chance(s, 4)) { // in a sheet
+    if (stage_chance(s, 4)) // in a sheet
         stage_occluder(s, stage_brick(s->eye[0], s->eye[1] + 1, s->eye[2], 8, 8, 0), -1);
-    }
     ahead(s, 2, 16);
     ahead(s, 8, 16);
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
@@ -124,7 +129,8 @@ FAMILY(eye_in_object)
     stage_box owner = s->occluders[occluder];
     owner.axis[0][0] += 1.0;
     s->world->occluders[occluder].owner = stage_object(s, owner);
-    stage_occluder(s, around(s, 16, 32), stage_chance(s, 2) ? 0 : -1);
+    stage_box shell = around(s, 16, 32);
+    stage_occluder(s, shell, stage_chance(s, 2) ? 0 : -1);
     ahead(s, 4, 16);
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
 }
@@ -133,12 +139,11 @@ FAMILY(occluder_behind_eye)
 {
     look(s);
     for (int i = 0; i < 3; i++) {
-        double half[3] = {stage_whole(s, 2, 16), stage_whole(s, 2, 16), stage_whole(s, 0, 4)};
-        double z = s->eye[2] + stage_whole(s, 0, 8) + (stage_chance(s, 2) ? half[2] : 0.0);
-        stage_occluder(s,
-                       stage_brick(s->eye[0] + stage_whole(s, -20, 20),
-                                   s->eye[1] + stage_whole(s, -4, 4), z, half[0], half[1], half[2]),
-                       -1);
+        stage_box box =
+            stage_any_brick(s, about(s, 0, -20, 20), about(s, 1, -4, 4), about(s, 2, 0, 8),
+                            stage_ones(2, 16), stage_ones(2, 16), stage_ones(0, 4));
+        if (stage_chance(s, 2)) box.center[2] += box.axis[2][2];
+        stage_occluder(s, box, -1);
     }
     for (int i = 0; i < 8; i++) // where it would be, seen through the eye
         stage_behind(s, i % 3, -world_scale(&s->random, 0.1, 8), WORLD_SHAPES);
@@ -148,18 +153,18 @@ FAMILY(occluder_behind_eye)
 
 FAMILY(object_at_eye)
 {
+    const stage_range size = stage_ones(0, 4);
     look(s);
     ahead(s, 2, 4);
     ahead(s, 8, 16);
     stage_occluder(s, stage_brick(s->eye[0], s->eye[1], s->eye[2] - 20, 40, 40, 1), -1);
     for (int i = 0; i < 6; i++) {
         stage_object(s, around(s, 1, 4));
-        stage_object(s, cornered(s, stage_sign(s), stage_sign(s), stage_sign(s)));
-        double c = stage_whole(s, 0, 4); // behind the eye, some with a face at it
-        stage_object(s, stage_brick(s->eye[0] + stage_whole(s, -4, 4),
-                                    s->eye[1] + stage_whole(s, -4, 4),
-                                    s->eye[2] + c + stage_whole(s, 0, 2), stage_whole(s, 0, 4),
-                                    stage_whole(s, 0, 4), c));
+        stage_object(s, cornered(s, false));
+        stage_box box = stage_any_brick(s, about(s, 0, -4, 4), about(s, 1, -4, 4),
+                                        about(s, 2, 0, 2), size, size, size);
+        box.center[2] += box.axis[2][2]; // behind the eye, some with a face at it
+        stage_object(s, box);
     }
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
 }
@@ -167,7 +172,9 @@ FAMILY(object_at_eye)
 // Straight ahead, with the near plane at a whole distance.
 static double look_past_near(stage *s)
 {
-    const double eye[3] = {stage_whole(s, -2, 2), stage_whole(s, -2, 2), stage_whole(s, -2, 2)};
+    double eye[3];
+    const stage_range near_by = stage_ones(-2, 2);
+    stage_point(s, near_by, near_by, near_by, eye);
     world_lens lens = stage_lens(s);
     lens.near_z = (float)stage_whole(s, 1, 4);
     stage_look(s, eye, NULL, &lens);
@@ -177,11 +184,16 @@ static double look_past_near(stage *s)
 // Behind the plane across z, touching it, through it, in it, or beyond it.
 static stage_box at_plane(stage *s, double z)
 {
-    double a = stage_part(s, 0, 4), b = stage_part(s, 0, 4), c = stage_part(s, 0, 2);
-    double from = stage_chance(s, 2) ? c * stage_whole(s, -1, 1) : stage_part(s, -2, 2);
-    if (stage_chance(s, 8)) c = 0.0;
-    return stage_brick(s->eye[0] + stage_whole(s, -2, 2), s->eye[1] + stage_whole(s, -2, 2),
-                       z + from, a, b, c);
+    stage_box box = stage_any_brick(s, about(s, 0, -2, 2), about(s, 1, -2, 2), stage_just(z),
+                                    stage_parts(0, 4), stage_parts(0, 4), stage_parts(0, 2));
+    if (stage_chance(s, 8)) {
+        box.axis[2][2] = 0.0;
+    } else if (stage_chance(s, 2)) {
+        box.center[2] += box.axis[2][2] * stage_whole(s, -1, 1);
+    } else {
+        box.center[2] += stage_part(s, -2, 2);
+    }
+    return box;
 }
 
 FAMILY(object_at_near)

@@ -7,27 +7,26 @@
 
 static void look(stage *s)
 {
-    const double eye[3] = {stage_whole(s, -2, 2), stage_whole(s, -2, 2), stage_whole(s, -2, 2)};
-    const double target[3] = {stage_part(s, -2, 2), stage_part(s, -2, 2), -16};
     world_lens lens = stage_lens(s);
-    stage_look(s, eye, stage_chance(s, 2) ? target : NULL, &lens);
+    stage_look_about(s, 2, &lens);
 }
 
 static int put_ahead(stage *s, world_shape shape, double size)
 {
-    const double center[3] = {stage_whole(s, -4, 4), stage_whole(s, -4, 4), -stage_whole(s, 6, 16)};
+    double center[3];
+    stage_point(s, stage_ones(-4, 4), stage_ones(-4, 4), stage_ones(-16, -6), center);
     return stage_occluder(s, stage_any(s, shape, center, size), -1);
 }
 
 static stage_box solid(stage *s, double reach)
 {
-    return stage_brick(stage_whole(s, -4, 4), stage_whole(s, -4, 4), -stage_whole(s, 6, 16), reach,
-                       reach, stage_part(s, 0, 2));
+    return stage_any_brick(s, stage_ones(-4, 4), stage_ones(-4, 4), stage_ones(-16, -6),
+                           stage_just(reach), stage_just(reach), stage_parts(0, 2));
 }
 
 // --- without thickness ---------------------------------------------------------------------------
 
-// Whole numbers, with some axes zero or in line with the first.
+// Whole numbers, with the last axes zero, or those behind the first in line with it.
 static stage_box flat_box(stage *s, int zero, int parallel)
 {
     stage_box box = solid(s, 1);
@@ -93,9 +92,10 @@ FAMILY(zero_volume)
 FAMILY(needles)
 {
     look(s);
-    for (int i = 0; i < 3; i++)
-        put_ahead(s, stage_chance(s, 2) ? WORLD_NEEDLE : WORLD_PLATE,
-                  world_scale(&s->random, 4, 64));
+    for (int i = 0; i < 3; i++) {
+        double size = world_scale(&s->random, 4, 64);
+        put_ahead(s, stage_chance(s, 2) ? WORLD_NEEDLE : WORLD_PLATE, size);
+    }
     stage_occluder(s, solid(s, 3), -1);
     stage_box pole = solid(s, 0x1p-8); // of 1 : 2^20, along x or y, exactly
     int along = (int)stage_whole(s, 0, 1);
@@ -122,18 +122,21 @@ FAMILY(scales)
     lens.near_z = 0x1p-30f;
     lens.far_z = 0x1p30f;
     stage_look(s, eye, NULL, &lens);
+    const stage_range aside = stage_parts(-0.5, 0.5), size = stage_parts(0.0625, 0.5);
     for (int i = 0; i < 12; i++) { // each as large in the picture as the others
-        double distance = ldexp(1.0, (int)stage_whole(s, -20, 20));
-        double size = distance * stage_part(s, 0.0625, 0.5);
-        stage_occluder(s,
-                       stage_brick(distance * stage_part(s, -0.5, 0.5),
-                                   distance * stage_part(s, -0.5, 0.5), -distance, size, size,
-                                   stage_chance(s, 2) ? 0.0 : 0.25 * distance),
-                       -1);
+        double distance = ldexp(1.0, (int)stage_whole(s, -20, 16));
+        stage_box box = stage_any_brick(s, aside, aside, stage_just(-1), size, size,
+                                        (stage_range){0, 0.25, 0.25});
+        for (int j = 0; j < 3; j++) {
+            box.center[j] *= distance;
+            box.axis[j][j] *= distance;
+        }
+        stage_occluder(s, box, -1);
     }
-    for (int i = 0; i < 20; i++)
-        stage_behind(s, (int)stage_whole(s, 0, 11), world_scale(&s->random, 1.001, 1e6),
-                     WORLD_SHAPES);
+    for (int i = 0; i < 20; i++) {
+        int occluder = (int)stage_whole(s, 0, 11);
+        stage_behind(s, occluder, world_scale(&s->random, 1.001, 1e3), WORLD_SHAPES);
+    }
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
 }
 
@@ -149,17 +152,15 @@ FAMILY(far_detail)
     }
     world_lens lens = stage_lens(s);
     stage_look(s, eye, NULL, &lens);
+    const stage_range ends = {0.999, 3.999, 1}, deep = {0, 1.999, 1.999};
+    const stage_range near_by = {-4, 4, 2}, about = {-8, 8, 2}, millimetres = {0, 2, 0.001};
     for (int i = 0; i < 5; i++)
-        stage_occluder(s,
-                       stage_brick(2 * stage_whole(s, -2, 2), 2 * stage_whole(s, -2, 2),
-                                   -2 * stage_whole(s, 3, 6), stage_whole(s, 1, 4) - 0.001,
-                                   stage_whole(s, 1, 4) + 0.001, stage_chance(s, 2) ? 0.0 : 1.999),
-                       -1);
-    for (int i = 0; i < FAMILY_CROWD; i++)
-        stage_object(s,
-                     stage_brick(2 * stage_whole(s, -4, 4), 2 * stage_whole(s, -4, 4),
-                                 -2 * stage_whole(s, 3, 10), 0.001 * stage_whole(s, 0, 2000),
-                                 0.001 * stage_whole(s, 0, 2000), 0.001 * stage_whole(s, 0, 2001)));
+        stage_occluder(
+            s, stage_any_brick(s, near_by, near_by, (stage_range){-12, -6, 2}, ends, ends, deep),
+            -1);
+    while (s->world->object_count < FAMILY_CROWD)
+        stage_object(s, stage_any_brick(s, about, about, (stage_range){-20, -6, 2}, millimetres,
+                                        millimetres, millimetres));
 }
 
 FAMILY(huge_occluder)
@@ -171,11 +172,11 @@ FAMILY(huge_occluder)
     stage_occluder(s, stage_brick(side, 0, z - depth, huge, huge, depth), -1);
     stage_occluder(s, stage_any(s, WORLD_TURNED, (double[3]){0, -huge, -huge}, huge), -1);
     for (int i = 0; i < 18; i++) {
-        double tiny = world_scale(&s->random, 1e-4, 1e-1);
-        double far_off =
+        double tiny = world_scale(&s->random, 1e-4, 1e-1), center[3];
+        double behind =
             stage_chance(s, 2) ? world_scale(&s->random, 1e-5, 1) : world_scale(&s->random, 1, 64);
-        const double center[3] = {stage_part(s, -4, 4), stage_part(s, -4, 4),
-                                  z - far_off * (stage_chance(s, 8) ? -1.0 : 1.0)};
+        if (stage_chance(s, 8)) behind = -behind;
+        stage_point(s, stage_parts(-4, 4), stage_parts(-4, 4), stage_just(z - behind), center);
         stage_object(s, stage_any(s, WORLD_SHAPES, center, tiny));
     }
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
@@ -193,9 +194,10 @@ FAMILY(tiny_occluder)
         stage_occluder(s, stage_any(s, WORLD_SHAPES, center, 4.0 * tiny), -1);
     }
     for (int i = 0; i < 8; i++) {
-        double huge = world_scale(&s->random, 1e2, 1e6);
-        const double center[3] = {huge * stage_part(s, -1, 1), huge * stage_part(s, -1, 1),
-                                  -huge * stage_part(s, 0.25, 4)};
+        double huge = world_scale(&s->random, 1e2, 1e6), center[3];
+        stage_point(s, stage_parts(-1, 1), stage_parts(-1, 1), stage_parts(-4, -0.25), center);
+        for (int j = 0; j < 3; j++)
+            center[j] *= huge;
         stage_object(s, stage_any(s, WORLD_SHAPES, center, huge));
     }
     for (int i = 0; i < 10; i++)
@@ -266,7 +268,8 @@ FAMILY(denormal)
     double tiny = 0x1p-149 / s->unit;
     for (int i = 0; i < 4; i++) {
         stage_box box = solid(s, stage_whole(s, 1, 4));
-        box.center[(int)stage_whole(s, 0, 1)] = tiny * stage_whole(s, -100, 100);
+        int level = (int)stage_whole(s, 0, 1);
+        box.center[level] = tiny * stage_whole(s, -100, 100);
         box.axis[2][2] = tiny * stage_whole(s, 0, 2);
         box.axis[0][1] = tiny * stage_whole(s, -2, 2);
         stage_occluder(s, box, -1);
@@ -279,18 +282,19 @@ FAMILY(denormal)
     stage_crowd(s, FAMILY_CROWD, WORLD_SHAPES);
 }
 
-// Whatever scale was asked for: 2^8 units are nearly 1e15.
+// Whatever scale and offset were asked for: 2^8 units are nearly 1e15.
 FAMILY(largest)
 {
     double factor = s->length / s->unit;
-    s->length = 0x1.8p41;
-    s->unit = world_few_bits(s->length / factor, 8);
+    s->unit = world_few_bits(0x1.8p41 / factor, 8);
+    s->length = s->unit * factor;
     memset(s->place, 0, sizeof s->place);
     look(s);
+    const stage_range size = stage_ones(0, 64);
     for (int i = 0; i < 4; i++) {
         stage_occluder(s, solid(s, stage_whole(s, 1, 4)), -1);
-        double z = -stage_whole(s, 32, 128), x = 32 * stage_whole(s, -1, 1);
-        stage_object(s, stage_brick(x, 0, z, stage_whole(s, 0, 64), stage_whole(s, 0, 64), 8));
+        stage_object(s, stage_any_brick(s, (stage_range){-32, 32, 32}, stage_just(0),
+                                        stage_ones(-128, -32), size, size, stage_just(8)));
     }
     for (int i = 0; i < 16; i++)
         stage_behind(s, i % 4, 1 + 4 * steady_unit(&s->random), WORLD_SHAPES);

@@ -11,19 +11,44 @@ bool stage_chance(stage *s, uint32_t count)
     return steady_below(&s->random, count) == 0;
 }
 
+double stage_draw(stage *s, stage_range range)
+{
+    double steps = floor((range.high - range.low) / range.step + 0.5);
+    return range.low + range.step * steady_below(&s->random, (uint32_t)steps + 1u);
+}
+
 double stage_whole(stage *s, int low, int high)
 {
-    return low + (int)steady_below(&s->random, (uint32_t)(high - low + 1));
+    return stage_draw(s, stage_ones(low, high));
 }
 
 double stage_part(stage *s, double low, double high)
 {
-    return low + steady_below(&s->random, (uint32_t)(16.0 * (high - low)) + 1u) / 16.0;
+    return stage_draw(s, stage_parts(low, high));
 }
 
 double stage_sign(stage *s)
 {
     return stage_chance(s, 2) ? 1.0 : -1.0;
+}
+
+double stage_signed(stage *s, int low, int high)
+{
+    double sign = stage_sign(s);
+    return sign * stage_whole(s, low, high);
+}
+
+double stage_sliver(stage *s, int least, int most)
+{
+    double sign = stage_sign(s);
+    return ldexp(sign, -(int)stage_whole(s, least, most));
+}
+
+void stage_point(stage *s, stage_range x, stage_range y, stage_range z, double out[3])
+{
+    out[0] = stage_draw(s, x);
+    out[1] = stage_draw(s, y);
+    out[2] = stage_draw(s, z);
 }
 
 // --- the place -----------------------------------------------------------------------------------
@@ -110,14 +135,13 @@ stage_box stage_brick(double x, double y, double z, double a, double b, double c
     return (stage_box){{x, y, z}, {{a, 0, 0}, {0, b, 0}, {0, 0, c}}};
 }
 
-stage_box stage_between(const double low[3], const double high[3])
+stage_box stage_any_brick(stage *s, stage_range x, stage_range y, stage_range z, stage_range a,
+                          stage_range b, stage_range c)
 {
-    stage_box box = {{0}, {{0}}};
-    for (int j = 0; j < 3; j++) {
-        box.center[j] = 0.5 * (low[j] + high[j]);
-        box.axis[j][j] = 0.5 * (high[j] - low[j]);
-    }
-    return box;
+    double center[3], half[3];
+    stage_point(s, x, y, z, center);
+    stage_point(s, a, b, c, half);
+    return stage_brick(center[0], center[1], center[2], half[0], half[1], half[2]);
 }
 
 stage_box stage_any(stage *s, world_shape shape, const double center[3], double size)
@@ -300,4 +324,15 @@ void stage_look(stage *s, const double eye[3], const double target[3], const wor
     const double zero[3] = {0, 0, 0};
     set_matrix(s, row, clip, from_eye ? zero : world->eye);
     set_parts(s, row, clip, world->eye);
+}
+
+void stage_look_about(stage *s, double aside, const world_lens *lens)
+{
+    const stage_range near_by = stage_ones(-2, 2), about = stage_parts(-aside, aside);
+    double eye[3], target[3];
+    stage_point(s, near_by, near_by, near_by, eye);
+    stage_point(s, about, about, stage_just(-16), target);
+    for (int j = 0; j < 3; j++)
+        target[j] += eye[j];
+    stage_look(s, eye, stage_chance(s, 2) ? target : NULL, lens);
 }

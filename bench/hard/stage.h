@@ -34,6 +34,30 @@ void stage_begin(stage *s, family_world *world, const family_place *place, const
 void stage_end(stage *s);
 
 // --- numbers -------------------------------------------------------------------------------------
+// C leaves open in which order arguments are evaluated, and compilers differ. So no expression may
+// draw twice: ranges are passed instead, and drawn from in order.
+
+/// low, low + step, ... high.
+typedef struct stage_range {
+    double low, high, step;
+} stage_range;
+
+static inline stage_range stage_ones(double low, double high)
+{
+    return (stage_range){low, high, 1.0};
+}
+
+static inline stage_range stage_parts(double low, double high)
+{
+    return (stage_range){low, high, 0.0625};
+}
+
+static inline stage_range stage_just(double value)
+{
+    return (stage_range){value, value, 1.0};
+}
+
+double stage_draw(stage *s, stage_range range);
 
 /// One in `count`.
 bool stage_chance(stage *s, uint32_t count);
@@ -47,13 +71,20 @@ double stage_part(stage *s, double low, double high);
 /// 1 or -1.
 double stage_sign(stage *s);
 
+/// A whole number from `low` to `high`, with either sign.
+double stage_signed(stage *s, int low, int high);
+
+/// 2 to the power of minus `least` to minus `most`, with either sign.
+double stage_sliver(stage *s, int least, int most);
+
 // --- boxes ---------------------------------------------------------------------------------------
 
 /// Aligned with the stage's axes.
 stage_box stage_brick(double x, double y, double z, double a, double b, double c);
 
-/// From one corner to the opposite one.
-stage_box stage_between(const double low[3], const double high[3]);
+/// The same, each number drawn from a range.
+stage_box stage_any_brick(stage *s, stage_range x, stage_range y, stage_range z, stage_range a,
+                          stage_range b, stage_range c);
 
 /// Of any shape, around a point.
 stage_box stage_any(stage *s, world_shape shape, const double center[3], double size);
@@ -69,6 +100,13 @@ int stage_occluder(stage *s, stage_box box, int owner);
 
 /// Any lens, half of them plain perspective.
 world_lens stage_lens(stage *s);
+
+/// A point drawn from ranges.
+void stage_point(stage *s, stage_range x, stage_range y, stage_range z, double out[3]);
+
+/// A camera at a whole point near the origin: straight along -z in half of the worlds, else
+/// looking up to `aside` sixteenths of its way aside.
+void stage_look_about(stage *s, double aside, const world_lens *lens);
 
 /// The camera at `eye`, straight along -z if `target` is NULL. Lengths of the lens are local.
 void stage_look(stage *s, const double eye[3], const double target[3], const world_lens *lens);

@@ -101,7 +101,8 @@ static double exactly_coplanar(steady_random *random, double axis[3][3], double 
         }
         axis[2][j] = 0.5 * axis[0][j] - 0.75 * axis[1][j];
     }
-    if (almost) axis[2][2] = world_scale(random, 1e-24, 1e-15) * (steady_below(random, 2) ? 1 : -1);
+    if (almost) axis[2][2] = world_scale(random, 1e-24, 1e-15);
+    if (almost && steady_below(random, 2)) axis[2][2] = -axis[2][2];
     int exponent;
     frexp(size, &exponent);
     return ldexp(1.0, exponent - 1);
