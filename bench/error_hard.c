@@ -69,10 +69,13 @@ static void close_benches(hard_trial *trial)
 
 // --- the others ----------------------------------------------------------------------------------
 
-// They know no occluder that is nobody's: it becomes part of an object of its own.
+// They take perspective cameras with OpenGL's depths. And they know no occluder that is nobody's:
+// it becomes part of an object of its own.
 static hard_scene describe(const family_world *world)
 {
-    hard_scene result = {.is_usable = world->has_parts && world->proj[11] != 0};
+    bool is_usable = world->has_parts && world->camera.depth == OCC_DEPTH_MINUS_ONE_TO_ONE &&
+                     world->proj[11] < 0;
+    hard_scene result = {.is_usable = is_usable};
     obs_scene *scene = &result.scene;
     obs_frame frame = {0};
     for (uint32_t i = 0; i < world->object_count; i++)

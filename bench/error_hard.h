@@ -9,7 +9,8 @@
 
 /// Appends a row for each family, scale, method and backend. In it `frames` are worlds, and objects
 /// are summed over them; nothing is timed. A method that is not the library's sits out the worlds
-/// whose camera no scene file can tell (orthographic ones, and rows in any direction). Without a
+/// whose cameras it does not take: orthographic ones, other depths than OpenGL's, rows in any
+/// direction. Without a
 /// judge says so and appends nothing.
 error_status error_hard(const error_options *options, error_table *table);
 

@@ -84,9 +84,11 @@ static void put_panel(FILE *stream, int column, double left, double right, const
     fprintf(stream, "set lmargin at screen %.3f\nset rmargin at screen %.3f\nset xlabel ", left,
             right);
     plot_quote(stream, label);
-    fprintf(stream, "\nset key %s\n",
-            has_key ? "at screen 0.5,0.995 center top horizontal maxrows 2 font ',10' samplen 1"
-                    : "off");
+    fprintf(
+        stream, "\nset key %s\n",
+        has_key
+            ? "at screen 0.5,0.995 center top horizontal maxcols 4 Left reverse width 2 samplen 1"
+            : "off");
     for (int s = 0; s < STYLES; s++) {
         double shift = 0.08 * (STYLES / 2 - s);
         fprintf(stream,

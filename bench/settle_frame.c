@@ -12,9 +12,6 @@
 // roundings in the corner and four in the value, 2^-53 each, and as much again.
 #define LOSS 0x1p-49
 
-// What settle_frame_is_plain() asks for where a double could not tell, or hardly.
-#define CLEARLY 1e-9
-
 enum { X, Y, W, DEPTH, VALUES };
 
 // A box's corners in the camera's coordinates, and what these may have lost.
@@ -195,101 +192,4 @@ uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_
     }
     qsort(list, found, sizeof *list, compare_cover);
     return found;
-}
-
-// --- plain occluders -----------------------------------------------------------------------------
-
-static void normal_of(const occ_box *box, int face, double normal[3])
-{
-    double u[3], v[3];
-    for (int j = 0; j < 3; j++) {
-        u[j] = (double)box->axis[(face + 1) % 3][j];
-        v[j] = (double)box->axis[(face + 2) % 3][j];
-    }
-    truth_cross(u, v, normal);
-}
-
-// How far a box reaches to both sides of its center along a direction of any length.
-static double reach_of(const occ_box *box, const double along[3])
-{
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double axis[3] = {(double)box->axis[k][0], (double)box->axis[k][1],
-                                (double)box->axis[k][2]};
-        sum += fabs(truth_dot(along, axis));
-    }
-    return sum;
-}
-
-// The center, relative to the eye, and the magnitude of what its place along a direction is
-// computed from.
-static double place_of(const truth_view *view, const occ_box *box, const double along[3],
-                       double *size)
-{
-    double place = 0.0;
-    *size = 0.0;
-    for (int j = 0; j < 3; j++) {
-        place += along[j] * ((double)box->center[j] - view->eye[j]);
-        *size += fabs(along[j]) * (fabs((double)box->center[j]) + fabs(view->eye[j]));
-    }
-    return place;
-}
-
-static bool are_apart_along(const truth_view *view, const occ_box *a, const occ_box *b,
-                            const double along[3])
-{
-    double size_a, size_b, reach = reach_of(a, along) + reach_of(b, along);
-    double between = place_of(view, a, along, &size_a) - place_of(view, b, along, &size_b);
-    return fabs(between) > reach + CLEARLY * (reach + size_a + size_b);
-}
-
-static bool are_apart(const truth_view *view, const occ_box *a, const occ_box *b)
-{
-    for (int k = 0; k < 3; k++) {
-        double unit[3] = {0.0, 0.0, 0.0}, normal[3];
-        unit[k] = 1.0;
-        if (are_apart_along(view, a, b, unit)) return true;
-        normal_of(a, k, normal);
-        if (are_apart_along(view, a, b, normal)) return true;
-        normal_of(b, k, normal);
-        if (are_apart_along(view, a, b, normal)) return true;
-    }
-    return false;
-}
-
-static bool is_beyond_near(const truth_view *view, const occ_box *box)
-{
-    const double *plane = view->plane[TRUTH_NEAR];
-    double size, reach = reach_of(box, plane), place = place_of(view, box, plane, &size);
-    return place + plane[3] > reach + CLEARLY * (reach + size + fabs(plane[3]));
-}
-
-// Whether a face has the box on one side, and on the other the eye with what of the frustum is
-// before the near plane.
-static bool is_whole(const truth_view *view, const occ_box *box)
-{
-    bool is_perspective = view->row[2][3] == 0.0;
-    if (is_beyond_near(view, box)) return true;
-    for (int k = 0; is_perspective && k < 3; k++) {
-        double normal[3], size;
-        normal_of(box, k, normal);
-        double place = place_of(view, box, normal, &size), low = 0.0, high = 0.0;
-        for (int c = 0; c < 4; c++) {
-            double at = truth_dot(normal, view->near_corner[c]);
-            low = fmin(low, at);
-            high = fmax(high, at);
-        }
-        double reach = reach_of(box, normal);
-        double margin = reach + CLEARLY * (reach + size + high - low);
-        if (place - margin > high || place + margin < low) return true;
-    }
-    return false;
-}
-
-bool settle_frame_is_plain(const settle_frame *frame, const occ_box *occluder,
-                           const occ_box *object)
-{
-    truth_solid solids[TRUTH_MAX_SOLIDS];
-    return truth_solids_of(&frame->view, occluder, solids) > 0 &&
-           is_whole(&frame->view, occluder) && are_apart(&frame->view, occluder, object);
 }

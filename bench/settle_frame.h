@@ -43,8 +43,8 @@ void settle_frame_free(settle_frame *frame);
 uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_candidate *list);
 
 /// Whether an occluder hides by every reading what is behind it: it is not seen edge-on, the near
-/// plane does not cut it open within the frustum, and it is apart from the object, so that nothing
-/// of the object is in its surface.
+/// plane does not cut it open within the frustum, and nothing of the object is in a surface of it
+/// that looks towards the eye.
 bool settle_frame_is_plain(const settle_frame *frame, const occ_box *occluder,
                            const occ_box *object);
 

@@ -1,0 +1,159 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
+# its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
+# settle, settle_absent (a build without GMP), and wrong, which must fail.
+set -u
+program=$1
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail()
+{
+    echo "occlude-bench $line"
+    echo "  $1"
+    sed 's/^/  out: /' out
+    sed 's/^/  err: /' err
+    failures=$((failures + 1))
+}
+
+# expect STATUS STREAM TEXT ARGUMENTS...: the run ends with STATUS, and TEXT is in its STREAM (out or
+# err). If STATUS is 1 or 2 there is nothing on standard output, one line on standard error, and no
+# new file.
+expect()
+{
+    wanted=$1
+    stream=$2
+    text=$3
+    shift 3
+    line=$*
+    before=$(ls)
+    status=0
+    "$program" "$@" >out 2>err || status=$?
+    [ "$status" -eq "$wanted" ] || fail "ended with status $status, not $wanted"
+    grep -qF -e "$text" "$stream" || fail "does not say on standard $stream: $text"
+    case $wanted in
+    1 | 2)
+        [ ! -s out ] || fail "says something on standard output"
+        [ "$(wc -l <err)" -eq 1 ] || fail "says not just one line on standard error"
+        [ "$(ls)" = "$before" ] || fail "left a file behind"
+        ;;
+    esac
+}
+
+# A city of 161 objects and 60 frames, what can be seen in two of them, and a result.
+: >out
+: >err
+make_files()
+{
+    expect 0 out ' objects, ' scene city 100 2 --out city.obs
+    expect 0 out 'frames=2 ' truth city.obs --out city.tru --frames 0,30 --size 128x72
+    expect 0 out 'frames=60 ' cull city.obs --repeat 1 --backend plain --out city.vis
+}
+
+truth_group()
+{
+    make_files
+    expect 0 out 'usage: occlude-bench truth' truth --help
+    expect 0 out 'usage: occlude-bench truth' truth city.obs --frames bad -h
+
+    expect 2 err 'expected a scene file' truth
+    expect 2 err 'expected a scene file' truth --out new.tru
+    expect 2 err 'expected --out T.tru' truth city.obs
+    expect 2 err 'one word too many' truth city.obs other.obs --out new.tru
+    expect 2 err '--frame: no such option' truth city.obs --out new.tru --frame 0
+    expect 2 err '--out: expected a value after it' truth city.obs --out
+    for size in '' 64 64x x64 0x64 64x0 64X64 64x64x64 16385x1 1x16385 -1x1 ' 1x1' 1x1.5 \
+        00000000000000000000000000000000001x1; do
+        expect 2 err 'expected --size as 4096x2304, 16384x16384 at most' \
+            truth city.obs --out new.tru --size "$size"
+    done
+    for frames in '' , 0, ,0 0,,1 1,0 0,0 60 0,60 -1 0,x 0x1 '0, 1' 99999999999999999999; do
+        expect 1 err 'expected --frames as 0,20,40: ascending, and in the scene' \
+            truth city.obs --out new.tru --size 16x9 --frames "$frames"
+    done
+    expect 1 err 'absent.obs' truth absent.obs --out new.tru
+    expect 1 err 'city.tru: byte 0: expected the magic "OBS1"' truth city.tru --out new.tru
+    expect 1 err 'absent/new.tru' truth city.obs --out absent/new.tru --frames 0 --size 16x9
+
+    # One sample; the last frame; what it does by itself; options before words.
+    expect 0 out 'frames=1 ' truth city.obs --out new.tru --frames 59 --size 1x1
+    expect 0 out 'frames=3 ' truth --size 16x9 --out new.tru city.obs
+}
+
+compare_group()
+{
+    make_files
+    expect 0 out 'usage: occlude-bench compare' compare -h
+    expect 2 err 'expected a truth file and a result file' compare
+    expect 2 err 'expected a truth file and a result file' compare city.tru
+    expect 2 err 'one word too many' compare city.tru city.vis city.obs
+    expect 2 err '--sense: no such option' compare city.tru city.vis --sense
+    expect 2 err '--scene: expected a value after it' compare city.tru city.vis --scene
+    expect 2 err 'expected --scene F.obs beside --settle' compare city.tru city.vis --settle 5
+    for limit in '' 0 -1 x 1.5 4294967296; do
+        expect 2 err '--settle: expected a number from 1' \
+            compare city.tru city.vis --scene city.obs --settle "$limit"
+    done
+    expect 1 err 'absent.tru' compare absent.tru city.vis
+    expect 1 err 'absent.vis' compare city.tru absent.vis
+    expect 1 err 'city.vis: byte 0: expected the magic "TRU1"' compare city.vis city.vis
+    expect 1 err 'city.tru: byte ' compare city.tru city.tru
+
+    expect 0 out ' objects, ' scene city 1000 2 --out large.obs
+    expect 0 out 'frames=60 ' cull large.obs --repeat 1 --backend plain --out large.vis
+    expect 1 err 'do not go together: another number of objects' compare city.tru large.vis
+
+    expect 0 out 'frames=2 ' compare city.tru city.vis
+    [ "$(wc -l <out)" -eq 1 ] || fail "prints more than its line"
+    { head -c 8 city.vis && head -c $(($(wc -c <city.vis) - 8)) /dev/zero; } >none.vis
+    expect 3 out ' missed=0 ' compare city.tru none.vis
+    expect 3 err 'is reported hidden' compare city.tru none.vis
+}
+
+settle_group()
+{
+    make_files
+    expect 0 out ' objects, ' scene city 1000 2 --out large.obs
+    expect 1 err 'absent.obs' compare city.tru city.vis --scene absent.obs
+    expect 1 err 'expected the magic "OBS1"' compare city.tru city.vis --scene city.tru
+    expect 1 err 'city.tru and large.obs do not go together: another number of objects' \
+        compare city.tru city.vis --scene large.obs
+
+    expect 0 out ' unsettled=0 ' compare city.tru city.vis --scene city.obs
+    tail -n 2 out | head -n 1 | grep -qE '^settled=[0-9]+ judged_visible=[0-9]+ judged_hidden=[0-9]+ unsettled=0 false_confirmed=0 false_refuted=0$' ||
+        fail "the line before the last is not that of the judge"
+    tail -n 1 out | grep -qE '^frames=2 in_frustum=[0-9.]+ visible=[0-9.]+ false_hidden=0 largest_px=0 missed=[0-9]+ missed_pct=[0-9.]+$' ||
+        fail "the last line is not the verdict"
+
+    # What can be seen and is reported hidden is confirmed; everything reported visible, missed.
+    { head -c 8 city.vis && head -c $(($(wc -c <city.vis) - 8)) /dev/zero; } >none.vis
+    expect 3 err ' see it, and so does the judge' compare city.tru none.vis --scene city.obs
+    expect 3 out 'settled=2 judged_visible=2 judged_hidden=0 ' \
+        compare city.tru none.vis --scene city.obs --settle 2
+    expect 3 err ' see it, and the judge was not asked' \
+        compare city.tru none.vis --scene city.obs --settle 2
+    expect 0 out 'frames=60 ' cull city.obs --repeat 1 --backend plain --method frustum --out all.vis
+    expect 0 out 'settled=7 ' compare city.tru all.vis --scene city.obs --settle 7
+}
+
+settle_absent_group()
+{
+    make_files
+    expect 1 err 'built without GMP, which --scene needs' compare city.tru city.vis --scene city.obs
+}
+
+case $2 in
+truth) truth_group ;;
+compare) compare_group ;;
+settle) settle_group ;;
+settle_absent) settle_absent_group ;;
+wrong) expect 2 err 'expected a truth file' compare --help ;;
+*)
+    echo "no group is named $2"
+    exit 1
+    ;;
+esac
+[ "$failures" -eq 0 ]

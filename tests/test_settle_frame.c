@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// labels: property
+// What the judge makes of an object does not depend on the occluders that are left out.
+#include "judge.h"
+#include "kit.h"
+#include "scenes.h"
+#include "settle_frame.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    OBJECTS = 24,
+    OCCLUDERS = 40,
+    SCENES = 300 / OCC_TEST_SLOWNESS,
+    KINDS = 5 // of cameras
+};
+
+// A quarter of the boxes are large, a quarter flat, a quarter aligned.
+static occ_box random_box(kit_random *random, const float middle[3], float reach, float size)
+{
+    bool is_aligned = kit_below(random, 4) == 0;
+    occ_box box = kit_box(random, reach, size * (kit_below(random, 4) == 0 ? 6.0f : 1.0f));
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; is_aligned && j < 3; j++)
+            if (j != k) box.axis[k][j] = 0;
+    for (int j = 0; j < 3 && kit_below(random, 4) == 0; j++)
+        box.axis[2][j] = 0;
+    for (int j = 0; j < 3; j++)
+        box.center[j] += middle[j];
+    return box;
+}
+
+// Perspective; with an infinite far plane; with an oblique near plane; orthographic; seen through
+// a keyhole.
+static obs_frame random_frame(kit_random *random, const float eye[3], int kind, float scale)
+{
+    double from[3], direction[3];
+    for (int j = 0; j < 3; j++) {
+        from[j] = (double)eye[j];
+        direction[j] = (double)kit_between(random, -1, 1);
+    }
+    double near_z = (double)scale * (kit_below(random, 2) ? 0.01 : 1.5);
+    obs_frame frame = obs_look(from, direction, kind == 4 ? 8 : 1, 1.5, near_z, 40 * (double)scale);
+    if (kind == 1) {
+        frame.proj[10] = -1;
+        frame.proj[14] = (float)(-2 * near_z);
+    }
+    if (kind == 2) frame.proj[2] = 0.3f; // so that the near plane leans
+    if (kind == 3) {
+        memset(frame.proj, 0, sizeof frame.proj);
+        frame.proj[0] = frame.proj[5] = 0.125f / scale;
+        frame.proj[10] = -0.05f / scale;
+        frame.proj[14] = -1.05f;
+        frame.proj[15] = 1;
+    }
+    return frame;
+}
+
+// The occluders are around the eye and before it, the objects farther off.
+static void make_scene(obs_scene *scene, kit_random *random, int kind)
+{
+    static const float scales[3] = {1, 0.001f, 1000};
+    float scale = scales[kit_below(random, 3)], eye[3], middle[3];
+    for (int j = 0; j < 3; j++)
+        eye[j] = kit_below(random, 2) ? 0 : kit_between(random, -1e4f, 1e4f) * scale;
+    obs_frame frame = random_frame(random, eye, kind, scale);
+    obs_add_frame(scene, &frame);
+    for (int j = 0; j < 3; j++)
+        middle[j] = eye[j] + 12 * scale * frame.dir[j];
+    for (int i = 0; i < OBJECTS; i++) {
+        occ_box box = random_box(random, middle, (kind == 4 ? 4 : 9) * scale, scale);
+        obs_add_object(scene, &box);
+    }
+    for (int j = 0; j < 3; j++)
+        middle[j] = eye[j] + 4 * scale * frame.dir[j];
+    for (int i = 0; i < OCCLUDERS; i++) {
+        occ_box box = random_box(random, middle, 9 * scale, 1.5f * scale);
+        obs_add_occluder(scene, &box, kit_below(random, OBJECTS));
+    }
+    ck_assert(!scene->out_of_memory);
+}
+
+static judge *judge_of_frame(const obs_frame *frame)
+{
+    const double eye[3] = {(double)frame->eye[0], (double)frame->eye[1], (double)frame->eye[2]};
+    occ_camera_desc camera = {.eye = eye};
+    obs_view_projection(frame, camera.view_projection);
+    judge *j = judge_of_camera(&camera);
+    ck_assert_ptr_nonnull(j);
+    return j;
+}
+
+// A frame, a judge that has all occluders, and one that is given those chosen.
+typedef struct court {
+    const obs_scene *scene;
+    settle_frame frame;
+    judge *all, *some;
+    settle_candidate *list;
+    occ_box *boxes;
+} court;
+
+static void open_court(court *c, const obs_scene *scene, uint32_t index)
+{
+    *c = (court){.scene = scene};
+    const char *complaint = settle_frame_make(&c->frame, scene, index);
+    ck_assert_msg(!complaint, "%s", complaint);
+    c->all = judge_of_frame(&scene->frames[index]);
+    c->some = judge_of_frame(&scene->frames[index]);
+    int *owners = calloc(scene->occluder_count, sizeof *owners);
+    c->list = calloc(scene->occluder_count, sizeof *c->list);
+    c->boxes = calloc(scene->occluder_count, sizeof *c->boxes);
+    ck_assert(owners && c->list && c->boxes);
+    for (uint32_t i = 0; i < scene->occluder_count; i++) {
+        c->boxes[i] = scene->occluders[i].box;
+        owners[i] = (int)scene->occluders[i].owner;
+    }
+    judge_set_occluders(c->all, c->boxes, owners, scene->occluder_count);
+    free(owners);
+}
+
+static void close_court(court *c)
+{
+    judge_free(c->all);
+    judge_free(c->some);
+    settle_frame_free(&c->frame);
+    free(c->list);
+    free(c->boxes);
+}
+
+typedef struct tally {
+    uint32_t seen, hidden, partly, objects;
+    uint64_t candidates;
+} tally;
+
+static void choose_for(court *c, uint32_t object, tally *sum)
+{
+    uint32_t count = settle_frame_select(&c->frame, object, c->list);
+    ck_assert_uint_le(count, c->scene->occluder_count);
+    for (uint32_t i = 0; i < count; i++) {
+        const obs_occluder *occluder = &c->scene->occluders[c->list[i].occluder];
+        ck_assert_uint_ne(occluder->owner, object);
+        ck_assert(i == 0 || c->list[i].cover <= c->list[i - 1].cover);
+        c->boxes[i] = occluder->box;
+    }
+    judge_set_occluders(c->some, c->boxes, NULL, count);
+    sum->candidates += count;
+}
+
+static void check_object(court *c, uint32_t object, tally *sum)
+{
+    const occ_box *box = &c->scene->objects[object];
+    choose_for(c, object, sum);
+    bool seen = judge_sees(c->all, box, (int)object);
+    double share = judge_share(c->all, box, (int)object), without = judge_share(c->some, box, -1);
+    ck_assert_msg(judge_sees(c->some, box, -1) == seen, "object %u: seen %d without the others",
+                  object, !seen);
+    ck_assert_msg(fabs(share - without) < 1e-6, "object %u: %g of it is seen, not %g", object,
+                  without, share);
+    sum->seen += seen;
+    sum->hidden += !seen && judge_frustum(c->all, box) != JUDGE_OUTSIDE;
+    sum->partly += seen && share < 0.999;
+    sum->objects++;
+}
+
+static void check_frame(const obs_scene *scene, uint32_t index, tally *sum)
+{
+    court c;
+    open_court(&c, scene, index);
+    for (uint32_t object = 0; object < scene->object_count; object++)
+        check_object(&c, object, sum);
+    close_court(&c);
+}
+
+START_TEST(occluders_left_out_change_no_verdict)
+{
+    kit_random random = {(uint64_t)_i + 1};
+    tally sum = {0};
+    for (int i = 0; i < SCENES / KINDS; i++) {
+        obs_scene scene = {0};
+        make_scene(&scene, &random, _i);
+        check_frame(&scene, 0, &sum);
+        obs_free(&scene);
+    }
+    // There was something to see, to hide, and to leave out.
+    ck_assert_uint_gt(sum.seen, sum.objects / 50);
+    ck_assert_uint_gt(sum.hidden, sum.objects / 20);
+    ck_assert_uint_gt(sum.partly, sum.objects / 50);
+    ck_assert_uint_lt(sum.candidates, (uint64_t)sum.objects * OCCLUDERS / 2);
+}
+END_TEST
+
+// Scenes as they are measured, a frame of each.
+START_TEST(named_scenes_have_few_candidates_and_the_same_verdicts)
+{
+    static const char *const names[] = {"city", "forest", "soup", "interior", "seedscene"};
+    obs_scene scene = {0};
+    tally sum = {0};
+    ck_assert(scenes_make(names[_i], 1000 / OCC_TEST_SLOWNESS, 7, &scene));
+    check_frame(&scene, scene.frame_count / 2, &sum);
+    ck_assert_uint_gt(sum.seen, 0);
+    ck_assert_uint_gt(sum.hidden, 0);
+    ck_assert_uint_lt(sum.candidates, (uint64_t)sum.objects * scene.occluder_count / 4);
+    obs_free(&scene);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("settle_frame");
+    TCase *choice = tcase_create("choice");
+    tcase_add_loop_test(choice, occluders_left_out_change_no_verdict, 0, KINDS);
+    tcase_add_loop_test(choice, named_scenes_have_few_candidates_and_the_same_verdicts, 0, 5);
+    suite_add_tcase(suite, choice);
+    return test_run_suite(suite);
+}
