@@ -31,6 +31,7 @@ static const char error_usage[] =
     "  --settle N     objects of a result that are put to the exact judge where it and sampling "
     "do\n"
     "                 not agree, at most (default 10000; needs a build with GMP)\n"
+    "  --size WxH     samples of truths (default 4096x2304)\n"
     "  --repeat R     timed culls of each frame (default 3)\n"
     "\n"
     "Exit status 3 if a method that promises not to hides a visible object, or if backends\n"
@@ -41,7 +42,8 @@ static const char error_usage[] =
 enum { MAX_SCENES = 32, STATUS_FALSE_HIDDEN = 3 };
 
 typedef struct error_arguments {
-    const char *out, *folder;
+    const char *out, *folder, *size;
+    options_extent extent;          // of truths
     const char *scenes[MAX_SCENES]; // none: all
     int scene_count;
     bool wants_hard; // though scenes are named
@@ -74,10 +76,11 @@ static bool is_name(const char *text)
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_error(int argc, char **argv, error_arguments *arguments)
 {
-    *arguments =
-        (error_arguments){.out = "error", .options = {.repeats = 3, .settle = SETTLE_DEFAULT}};
+    *arguments = (error_arguments){
+        .out = "error", .size = "4096x2304", .options = {.repeats = 3, .settle = SETTLE_DEFAULT}};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--scenes", OPTIONS_TEXT, &arguments->folder},
+                                     {"--size", OPTIONS_TEXT, &arguments->size},
                                      {"--hard", OPTIONS_FLAG, &arguments->wants_hard},
                                      {"--quick", OPTIONS_FLAG, &arguments->options.is_quick},
                                      {"--settle", OPTIONS_COUNT, &arguments->options.settle},
@@ -88,6 +91,9 @@ static int parse_error(int argc, char **argv, error_arguments *arguments)
     int count = options_parse(argc, argv, entries, words, 0);
     if (count == OPTIONS_HELP) return OPTIONS_HELP;
     if (count == OPTIONS_BAD) return 2;
+    const options_extent least = {1, 1};
+    if (!options_size(arguments->size, least, TRUTH_MAX_SIDE, &arguments->extent))
+        return options_complain(argv[0], "expected --size as 4096x2304, 16384x16384 at most");
     if (arguments->options.repeats > 1000)
         return options_complain(argv[0], "--repeat is 1000 at most");
     for (int i = 0; i < arguments->scene_count; i++)
@@ -103,7 +109,7 @@ static bool make_folder(const char *path)
     return false;
 }
 
-static error_status run_scene(const error_arguments *arguments, const char *truth_folder,
+static error_status run_scene(const error_arguments *arguments, const error_truths *truths,
                               const char *name, error_table *table)
 {
     obs_scene scene;
@@ -113,13 +119,13 @@ static error_status run_scene(const error_arguments *arguments, const char *trut
     case ERROR_LOADED:
         break;
     case ERROR_ABSENT:
-        printf("%s: skipped: there is no file %s.obs and no generator makes it\n", name, name);
+        fprintf(arguments->scene_count > 0 ? stderr : stdout,
+                "%s: skipped: there is no file %s.obs and no generator makes it\n", name, name);
         return arguments->scene_count > 0 ? ERROR_UNUSABLE : ERROR_GOOD;
     case ERROR_FAILED:
         return ERROR_UNUSABLE;
     }
-    error_status status =
-        error_measure_scene(&arguments->options, truth_folder, name, &scene, table);
+    error_status status = error_measure_scene(&arguments->options, truths, name, &scene, table);
     obs_free(&scene);
     if (status == ERROR_UNUSABLE) return status;
     printf("%s: %zu runs in %.1f s\n", name, table->count - before, (timing_now() - start) / 1000);
@@ -128,18 +134,18 @@ static error_status run_scene(const error_arguments *arguments, const char *trut
 }
 
 // Goes on where backends differ, so that the report shows where.
-static error_status run_scenes(const error_arguments *arguments, const char *truth_folder,
+static error_status run_scenes(const error_arguments *arguments, const error_truths *truths,
                                error_table *table)
 {
     error_status worst = ERROR_GOOD;
     for (int i = 0; i < arguments->scene_count && worst != ERROR_UNUSABLE; i++) {
-        error_status status = run_scene(arguments, truth_folder, arguments->scenes[i], table);
+        error_status status = run_scene(arguments, truths, arguments->scenes[i], table);
         if (status != ERROR_GOOD) worst = status;
     }
     if (arguments->scene_count > 0) return worst;
     for (const error_source *source = error_sources; source->name; source++) {
         if (arguments->options.is_quick && !source->is_quick) continue;
-        error_status status = run_scene(arguments, truth_folder, source->name, table);
+        error_status status = run_scene(arguments, truths, source->name, table);
         if (status == ERROR_UNUSABLE) return status;
         if (status != ERROR_GOOD) worst = status;
     }
@@ -170,10 +176,11 @@ static error_status run_hard(error_findings *findings)
     return status;
 }
 
-static int run(const error_arguments *arguments, const char *truth_folder, error_findings *findings)
+static int run(const error_arguments *arguments, const error_truths *truths,
+               error_findings *findings)
 {
-    if (!make_folder(arguments->out) || !make_folder(truth_folder)) return 1;
-    error_status status = run_scenes(arguments, truth_folder, &findings->scenes);
+    if (!make_folder(arguments->out) || !make_folder(truths->folder)) return 1;
+    error_status status = run_scenes(arguments, truths, &findings->scenes);
     if (status == ERROR_UNUSABLE) return 1;
     bool wants_hard = arguments->scene_count == 0 || arguments->wants_hard;
     if (wants_hard) {
@@ -198,7 +205,8 @@ int bench_error(int argc, char **argv)
     if (!arguments.options.has_opencl) puts("no OpenCL device: the opencl backend is left out");
     error_findings findings = {.options = arguments.options,
                                .scenes = {.driver = "none", .peer = "none"}};
-    status = run(&arguments, truth_folder, &findings);
+    const error_truths truths = {truth_folder, arguments.extent.width, arguments.extent.height};
+    status = run(&arguments, &truths, &findings);
     error_table_free(&findings.scenes);
     error_table_free(&findings.hard);
     free(truth_folder);

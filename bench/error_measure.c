@@ -19,7 +19,8 @@ typedef struct error_stage {
 
 // A scene being measured.
 typedef struct worker {
-    const char *truth_folder, *name;
+    const error_truths *truths;
+    const char *name;
     const obs_scene *scene;
     uint64_t identity;
     uint32_t settle;
@@ -58,7 +59,7 @@ static bool make_stage(const worker *work, double scale, error_stage *stage)
     }
     stage->judge = (error_judge){.scene = stage->whole, .truth = &stage->truth};
     stage->part_judge = (error_judge){.scene = &stage->part, .truth = &stage->part_truth};
-    return error_truth(work->truth_folder, work->name, stage->whole, &stage->truth) &&
+    return error_truth(work->truths, work->name, stage->whole, &stage->truth) &&
            error_truth_cut(&stage->truth, &stage->part_truth) &&
            error_scene_cut(stage->whole, stage->truth.frames, stage->truth.frame_count,
                            &stage->part);
@@ -173,12 +174,12 @@ static bool run_all(worker *work, const error_run *runs, size_t count, error_sta
     return true;
 }
 
-error_status error_measure_scene(const error_options *options, const char *truth_folder,
+error_status error_measure_scene(const error_options *options, const error_truths *truths,
                                  const char *name, const obs_scene *scene, error_table *table)
 {
     error_run runs[ERROR_MAX_RUNS];
     size_t count = error_plan(options, scene, runs);
-    worker work = {.truth_folder = truth_folder,
+    worker work = {.truths = truths,
                    .name = name,
                    .scene = scene,
                    .identity = error_scene_identity(scene),

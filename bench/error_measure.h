@@ -5,6 +5,7 @@
 #define OCC_BENCH_ERROR_MEASURE_H
 
 #include "error_row.h"
+#include "error_truth.h"
 
 typedef enum error_status {
     ERROR_GOOD,
@@ -12,8 +13,8 @@ typedef enum error_status {
     ERROR_DIFFERENT ///< Backends or threads disagree: said on standard error, and measured on.
 } error_status;
 
-/// Appends a row for each run to `table`. Truths are kept in `truth_folder`.
-error_status error_measure_scene(const error_options *options, const char *truth_folder,
+/// Appends a row for each run to `table`. Truths are kept as `truths` says.
+error_status error_measure_scene(const error_options *options, const error_truths *truths,
                                  const char *name, const obs_scene *scene, error_table *table);
 
 #endif

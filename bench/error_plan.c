@@ -9,7 +9,7 @@ const error_method error_methods[] = {
     {"single", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED},
     {"pairwise", ERROR_BACKENDS | ERROR_BRIEF | ERROR_ONE_SIDED},
     {"embree-depth", ERROR_THREADS | ERROR_RAYS},
-    {"embree-rays", ERROR_THREADS},
+    {"embree-rays", ERROR_THREADS | ERROR_BRIEF},
     {"thesis", ERROR_SCALES | ERROR_BRIEF},
     {NULL, 0}};
 

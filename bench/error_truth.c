@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { FRAMES = 3, EVERY = 20, WIDTH = 4096, HEIGHT = 2304 };
+enum { FRAMES = 3, EVERY = 20 };
 
 static uint32_t frame_count(const obs_scene *scene)
 {
@@ -20,17 +20,18 @@ static uint32_t frame_count(const obs_scene *scene)
     return count < FRAMES ? count : FRAMES;
 }
 
-static bool sample(const char *name, const obs_scene *scene, truth_result *truth)
+static bool sample(const error_truths *truths, const char *name, const obs_scene *scene,
+                   truth_result *truth)
 {
     const char *complaint = NULL;
     if (!truth_create(truth, scene->object_count, frame_count(scene)))
         complaint = "not enough memory";
-    truth->width = WIDTH;
-    truth->height = HEIGHT;
+    truth->width = truths->width;
+    truth->height = truths->height;
     progress_begin("truth", truth->frame_count);
     for (uint32_t row = 0; row < truth->frame_count && !complaint; row++) {
         truth->frames[row] = row * EVERY;
-        complaint = truth_sample(scene, row * EVERY, WIDTH, HEIGHT,
+        complaint = truth_sample(scene, row * EVERY, truths->width, truths->height,
                                  truth->verdicts + (size_t)row * scene->object_count);
         progress_step(row + 1);
     }
@@ -41,9 +42,9 @@ static bool sample(const char *name, const obs_scene *scene, truth_result *truth
     return false;
 }
 
-static bool fits(const truth_result *truth, const obs_scene *scene)
+static bool fits(const error_truths *truths, const truth_result *truth, const obs_scene *scene)
 {
-    if (truth->width != WIDTH || truth->height != HEIGHT ||
+    if (truth->width != truths->width || truth->height != truths->height ||
         truth->object_count != scene->object_count || truth->frame_count != frame_count(scene))
         return false;
     for (uint32_t row = 0; row < truth->frame_count; row++)
@@ -51,27 +52,29 @@ static bool fits(const truth_result *truth, const obs_scene *scene)
     return true;
 }
 
-static bool read_or_sample(const char *path, const char *name, const obs_scene *scene,
-                           truth_result *truth)
+static bool read_or_sample(const error_truths *truths, const char *path, const char *name,
+                           const obs_scene *scene, truth_result *truth)
 {
     if (access(path, F_OK) == 0 && truth_read(path, truth)) {
-        if (fits(truth, scene)) return true;
+        if (fits(truths, truth, scene)) return true;
         truth_free(truth);
     }
-    if (!sample(name, scene, truth)) return false;
+    if (!sample(truths, name, scene, truth)) return false;
     if (truth_write(path, truth)) return true;
     truth_free(truth);
     return false;
 }
 
-bool error_truth(const char *folder, const char *name, const obs_scene *scene, truth_result *truth)
+bool error_truth(const error_truths *truths, const char *name, const obs_scene *scene,
+                 truth_result *truth)
 {
     *truth = (truth_result){0};
-    size_t size = strlen(folder) + strlen(name) + 32;
+    size_t size = strlen(truths->folder) + strlen(name) + 32;
     char *path = malloc(size);
     if (!path) return false;
-    snprintf(path, size, "%s/%s-%016" PRIx64 ".tru", folder, name, error_scene_identity(scene));
-    bool good = read_or_sample(path, name, scene, truth);
+    snprintf(path, size, "%s/%s-%016" PRIx64 ".tru", truths->folder, name,
+             error_scene_identity(scene));
+    bool good = read_or_sample(truths, path, name, scene, truth);
     free(path);
     return good;
 }

@@ -7,10 +7,16 @@
 #include "obs.h"
 #include "truth_file.h"
 
-/// The truth at frames 0, 20 and 40, as far as the scene has them, at 4096 x 2304 samples. Taken
-/// from FOLDER/NAME-IDENTITY.tru if that is there, else sampled and put there. False after a
-/// message.
-bool error_truth(const char *folder, const char *name, const obs_scene *scene, truth_result *truth);
+/// Where truths are kept, and how many samples wide and high they are.
+typedef struct error_truths {
+    const char *folder;
+    uint32_t width, height;
+} error_truths;
+
+/// The truth at frames 0, 20 and 40, as far as the scene has them. Taken from
+/// FOLDER/NAME-IDENTITY.tru if that is there, else sampled and put there. False after a message.
+bool error_truth(const error_truths *truths, const char *name, const obs_scene *scene,
+                 truth_result *truth);
 
 /// The same verdicts for a scene that was cut down to the truth's frames. It borrows the verdicts:
 /// free its `frames`, nothing else. False when memory runs out.

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the error report runs on a scene.
+#include "error_plan.h"
+#include "kit_obs.h"
+#include "obs.h"
+#include "scenes.h"
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct plan {
+    error_run runs[ERROR_MAX_RUNS];
+    size_t count;
+} plan;
+
+static plan planned(uint32_t objects, uint32_t occluders, bool is_quick, bool has_opencl)
+{
+    const obs_scene scene = {.object_count = objects, .occluder_count = occluders};
+    const error_options options = {.repeats = 3, .is_quick = is_quick, .has_opencl = has_opencl};
+    plan p;
+    p.count = error_plan(&options, &scene, p.runs);
+    return p;
+}
+
+static size_t count_runs(const plan *p, const char *method, const char *backend, bool is_skipped)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < p->count; i++)
+        count += strcmp(p->runs[i].method->name, method) == 0 &&
+                 strcmp(p->runs[i].settings.backend, backend) == 0 &&
+                 (p->runs[i].skipped != NULL) == is_skipped;
+    return count;
+}
+
+START_TEST(every_method_is_in_the_plan)
+{
+    plan small = planned(1000, 1000, false, true), quick = planned(1000, 1000, true, true);
+    ck_assert_uint_lt(small.count, ERROR_MAX_RUNS);
+    ck_assert_uint_lt(quick.count, small.count);
+    for (const error_method *method = error_methods; method->name; method++) {
+        ck_assert_uint_ge(count_runs(&small, method->name, "plain", false) +
+                              count_runs(&small, method->name, "plain", true),
+                          1);
+        ck_assert_ptr_eq(error_method_find(method->name), method);
+    }
+    ck_assert_ptr_null(error_method_find("nameless"));
+}
+END_TEST
+
+START_TEST(runs_that_can_be_started_are_complete)
+{
+    plan p = planned(1000, 1000, false, true);
+    for (size_t i = 0; i < p.count; i++) {
+        measure_settings settings = p.runs[i].settings;
+        ck_assert_str_eq(settings.method, p.runs[i].method->name);
+        ck_assert(p.runs[i].skipped || !measure_complete(&settings));
+        ck_assert_uint_ge(settings.repeats, 1);
+    }
+}
+END_TEST
+
+// Their verdicts are compared with those of the first of them.
+START_TEST(runs_that_must_agree_stand_together_and_plain_is_first)
+{
+    plan p = planned(1000, 1000, false, true);
+    for (size_t i = 0; i < p.count; i++) {
+        bool begins = i == 0 || !error_run_equals(&p.runs[i - 1], &p.runs[i]);
+        if (!begins) continue;
+        ck_assert_str_eq(p.runs[i].settings.backend, "plain");
+        for (size_t k = 0; k + 1 < i; k++)
+            ck_assert_msg(!error_run_equals(&p.runs[k], &p.runs[i]), "runs %zu and %zu", k, i);
+    }
+}
+END_TEST
+
+START_TEST(quadratic_methods_sit_out_large_scenes)
+{
+    plan large = planned(100000, 100000, false, true);
+    ck_assert_uint_eq(count_runs(&large, "thesis", "plain", true), 1);
+    ck_assert_uint_eq(count_runs(&large, "thesis", "plain", false), 0);
+    ck_assert_uint_eq(count_runs(&large, "pairwise", "plain", false), 0);
+    ck_assert_uint_ge(count_runs(&large, "single", "opencl", false), 1);
+    for (size_t i = 0; i < large.count; i++)
+        ck_assert(!(large.runs[i].scale < 1) && !(large.runs[i].scale > 1));
+    plan small = planned(1000, 1000, false, true);
+    ck_assert_uint_eq(count_runs(&small, "thesis", "plain", false), 3); // scales
+}
+END_TEST
+
+START_TEST(without_a_device_opencl_is_skipped)
+{
+    plan p = planned(1000, 1000, false, false);
+    ck_assert_uint_eq(count_runs(&p, "single", "opencl", false), 0);
+    ck_assert_uint_ge(count_runs(&p, "single", "opencl", true), 1);
+    ck_assert_uint_ge(count_runs(&p, "single", "openmp", false), 2);
+}
+END_TEST
+
+START_TEST(settings_have_names_of_their_own)
+{
+    plan p = planned(1000, 1000, false, true);
+    for (size_t i = 0; i < p.count; i++)
+        for (size_t k = 0; k < i; k++) {
+            char a[64], b[64];
+            error_run_setting(&p.runs[i], a, sizeof a);
+            error_run_setting(&p.runs[k], b, sizeof b);
+            bool is_one = p.runs[i].method == p.runs[k].method && strcmp(a, b) == 0;
+            ck_assert_msg(is_one == error_run_equals(&p.runs[i], &p.runs[k]), "%s and %s", a, b);
+        }
+}
+END_TEST
+
+// The report states all knobs, so the defaults must be what the library takes them to be.
+START_TEST(stated_defaults_are_the_librarys)
+{
+    obs_scene file;
+    ck_assert(scenes_make("soup", 3000, 4, &file));
+    occ_scene *scene = kit_obs_scene(&file, NULL, NULL, NULL);
+    const occ_view_desc plain = {.backend = OCC_BACKEND_PLAIN};
+    occ_view *view;
+    occ_view_stats ours, theirs;
+    ck_assert_int_eq(occ_view_create(&plain, &view), OCC_SUCCESS);
+    for (uint32_t frame = 0; frame < file.frame_count; frame += 10) {
+        double eye[3];
+        occ_camera_desc camera = kit_obs_camera(&file.frames[frame], eye);
+        ck_assert_int_eq(occ_cull(view, scene, &camera, &error_default_knobs), OCC_SUCCESS);
+        ck_assert_int_eq(occ_view_get_stats(view, &ours), OCC_SUCCESS);
+        ck_assert_int_eq(occ_cull(view, scene, &camera, NULL), OCC_SUCCESS);
+        ck_assert_int_eq(occ_view_get_stats(view, &theirs), OCC_SUCCESS);
+        ck_assert_uint_eq(ours.visible, theirs.visible);
+        ck_assert_uint_eq(ours.tested, theirs.tested);
+        ck_assert_uint_eq(ours.ranges, theirs.ranges);
+        ck_assert_uint_eq(ours.nodes_tested, theirs.nodes_tested);
+        ck_assert_uint_eq(ours.occluders_tested, theirs.occluders_tested);
+        ck_assert_uint_eq(ours.occluders_used, theirs.occluders_used);
+    }
+    occ_view_destroy(view);
+    occ_scene_destroy(scene);
+    obs_free(&file);
+}
+END_TEST
+
+START_TEST(hard_families_are_run_at_three_scales)
+{
+    const error_options options = {.has_opencl = true};
+    static error_run runs[ERROR_MAX_RUNS];
+    size_t count = error_plan_hard(&options, runs), ones = 0, small = 0, large = 0;
+    ck_assert_uint_lt(count, ERROR_MAX_RUNS);
+    for (size_t i = 0; i < count; i++) {
+        ones += !(runs[i].scale < 1) && !(runs[i].scale > 1);
+        small += runs[i].scale < 1;
+        large += runs[i].scale > 1;
+    }
+    ck_assert_uint_eq(ones, small);
+    ck_assert_uint_eq(ones, large);
+    ck_assert_uint_eq(ones + small + large, count);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("error_plan");
+    TCase *runs = tcase_create("runs");
+    tcase_add_test(runs, every_method_is_in_the_plan);
+    tcase_add_test(runs, runs_that_can_be_started_are_complete);
+    tcase_add_test(runs, runs_that_must_agree_stand_together_and_plain_is_first);
+    tcase_add_test(runs, quadratic_methods_sit_out_large_scenes);
+    tcase_add_test(runs, without_a_device_opencl_is_skipped);
+    tcase_add_test(runs, settings_have_names_of_their_own);
+    tcase_add_test(runs, hard_families_are_run_at_three_scales);
+    suite_add_tcase(suite, runs);
+    TCase *knobs = tcase_create("knobs");
+    tcase_add_test(knobs, stated_defaults_are_the_librarys);
+    suite_add_tcase(suite, knobs);
+    return test_run_suite(suite);
+}
