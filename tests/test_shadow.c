@@ -396,6 +396,20 @@ START_TEST(what_lies_in_the_surface_of_an_occluder_stays_visible)
 }
 END_TEST
 
+// A wall of 2 km next to the eye: a millionth of it is more than what its bound has to spare.
+START_TEST(a_large_occluder_next_to_the_eye_ends_where_it_ends)
+{
+    const occ_box wall = {{0, 0, 0}, {{1000, 0, 0}, {0, 1000, 0}, {0, 0, 1000}}};
+    for (int i = 0; i < 2; i++) { // before and behind
+        float more = i ? -0x1p-11f : 0x1p-11f;
+        occ_box by_its_face = {{1000 + more, 0, 0}, {{0}}};
+        occ_box by_its_edge = {{999, 1001 + more, 0}, {{0}}};
+        ck_assert(hides_from(1001, 0, 0, &wall, &by_its_face) == (i == 1));
+        ck_assert(hides_from(1001, 999, 0, &wall, &by_its_edge) == (i == 1));
+    }
+}
+END_TEST
+
 // Where products of doubles lose their sign, a sheet shows neither side for certain.
 START_TEST(an_eye_of_denormal_doubles_casts_no_false_shadow)
 {
@@ -426,6 +440,23 @@ START_TEST(an_eye_of_denormal_doubles_casts_no_false_shadow)
 }
 END_TEST
 
+// Where floats are denormal nothing is proportional any more: the bound's floor has to do, and
+// leaves all visible.
+START_TEST(no_shadow_of_denormal_boxes_holds_what_can_be_seen)
+{
+    kit_random random = {41};
+    tally sum = {0, 0, 0};
+    for (unsigned i = 0; i < WORLD_SHARE(DUELS / 4); i++) {
+        duel d = {.eye = {0, 0, 0}};
+        make_duel(&random, &d, world_scale(&random, 1e-44, 1e-36));
+        occ_frame frame = verdict_frame_at(d.eye);
+        oracle *judge = oracle_of_eye(d.eye);
+        fight(&d, &frame, judge, i, &sum);
+        oracle_free(judge);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("shadow");
@@ -446,7 +477,9 @@ int main(void)
     tcase_add_test(by_hand, three_axes_in_one_plane_hide_what_their_hexagon_hides);
     tcase_add_test(by_hand, mirrored_and_sheared_boxes_hide_as_what_they_are);
     tcase_add_test(by_hand, what_lies_in_the_surface_of_an_occluder_stays_visible);
+    tcase_add_test(by_hand, a_large_occluder_next_to_the_eye_ends_where_it_ends);
     tcase_add_test(by_hand, an_eye_of_denormal_doubles_casts_no_false_shadow);
+    tcase_add_test(by_hand, no_shadow_of_denormal_boxes_holds_what_can_be_seen);
     suite_add_tcase(suite, by_hand);
     return test_run_suite(suite);
 }

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+# The planted bugs, and of the regular tests those that catch them (planting.cmake says how).
+
+set(can_be_seen "duel [0-9]+: hidden, but it can be seen")
+set(decided_otherwise "range [0-9]+ is decided otherwise")
+set(frustum_plane "frustum plane [0-5]: the offset [-+.0-9a-fpx]+ is too far")
+set(in_kernels IN kernels/geometry.h)
+set(in_shadow IN src/shadow.c COMPILE shadow.c)
+set(in_camera IN src/camera.c COMPILE camera.c)
+
+# --- a removed error bound -----------------------------------------------------------------------
+# Everywhere: the judge sees what is called hidden. In one backend or one instruction set alone: it
+# differs from what the bound makes of the same numbers.
+set(bound "((size)*OCC_SLACK + (slack_floor))")
+set(no_bound ${in_kernels} REPLACE "${bound}" BY "(0.0f * ((size)*OCC_SLACK + (slack_floor)))")
+occ_plant(no_bound ${no_bound} COMPILE box.c)
+occ_caught_by(no_bound shadow duels "${can_be_seen}" COMPILED)
+occ_plant(no_bound_scalar ${no_bound} COMPILE box.c backend_plain.c)
+occ_caught_by(no_bound_scalar backend_edges host "openmp [a-z0-9]+: ${decided_otherwise}")
+foreach(isa IN LISTS occ_planted_lanes)
+    occ_plant(no_bound_${isa} ${no_bound} COMPILE lanes_${isa})
+    occ_caught_by(no_bound_${isa} backend_edges host "openmp ${isa}: ${decided_otherwise}")
+    occ_caught_by(no_bound_${isa} lanes variants "${isa} in round [0-9]+")
+endforeach()
+if(occ_opencl)
+    occ_plant(no_bound_opencl ${no_bound} COMPILE kernels)
+    occ_caught_by(no_bound_opencl backend_edges device "opencl on a device: ${decided_otherwise}")
+endif()
+# Its absolute part, which swallows underflow.
+occ_plant(no_floor ${in_kernels} REPLACE "${bound}" BY "((size)*OCC_SLACK + 0.0f * (slack_floor))" COMPILE box.c)
+occ_caught_by(no_floor shadow "by hand" "${can_be_seen}" COMPILED)
+
+# The bounds of set-up: what a plane is moved by, what its offset and its eye may be off by, and
+# when a face counts as seen.
+occ_plant(not_inward ${in_shadow} REPLACE "inward - fabs(inward) * 0x1p-21" BY "inward")
+occ_caught_by(not_inward shadow_planes exact "inward by [-+.0-9e]+ u.d.")
+occ_plant(no_offset_error ${in_shadow} REPLACE "(d - d_error) * scale" BY "(d - 0.0 * d_error) * scale")
+occ_caught_by(no_offset_error shadow_planes exact "inward by [-+.0-9e]+ u.d.")
+occ_plant(no_eye_doubt ${in_shadow} REPLACE "8.0 * EPS * occ_dot_magnitude(n, camera->doubt)" BY "0.0")
+occ_caught_by(no_eye_doubt camera_planes silhouettes "camera [0-9]+: silhouette [0-9]+ holds the eye")
+occ_plant(no_origin_doubt ${in_camera} REPLACE "camera->doubt[j] += fabs(camera->eye[j])" BY "camera->doubt[j] += 0.0")
+occ_caught_by(no_origin_doubt camera_planes frusta "${frustum_plane} inward")
+occ_plant(no_sight_error ${in_shadow} REPLACE "!(margin > error)" BY "!(margin > 0.0 * error)")
+occ_caught_by(no_sight_error shadow "by hand" "Assertion 'oracle_box[^']* == ORACLE_HIDDEN' failed")
+occ_plant(no_plane_error ${in_camera} REPLACE "(d + error) * scale" BY "(d + 0.0 * error) * scale")
+occ_caught_by(no_plane_error camera_planes frusta "${frustum_plane} inward")
+occ_plant(no_low_half ${in_camera} REPLACE "(float)(camera->eye[j] - (double)high)" BY "0.0f * high")
+occ_caught_by(no_low_half camera eyes "Assertion 'fabs.pair - eye.j.. <=")
+
+# --- a swapped comparison ------------------------------------------------------------------------
+set(swapped ${in_kernels} REPLACE "((s) - (r) > (e))" BY "((s) - (r) >= (e))")
+occ_plant(swapped_scalar ${swapped} COMPILE backend_plain.c)
+occ_caught_by(swapped_scalar backend_edges host "plain one by one: ${decided_otherwise}")
+foreach(isa IN LISTS occ_planted_lanes)
+    occ_plant(swapped_${isa} ${swapped} COMPILE lanes_${isa})
+    occ_caught_by(swapped_${isa} backend_edges host "openmp ${isa}: ${decided_otherwise}")
+    occ_caught_by(swapped_${isa} lanes variants "${isa} in round [0-9]+")
+endforeach()
+if(occ_opencl)
+    occ_plant(swapped_opencl ${swapped} COMPILE kernels)
+    occ_caught_by(swapped_opencl backend_edges device "opencl on a device: ${decided_otherwise}")
+endif()
+occ_plant(swapped_outside ${in_kernels} REPLACE "((s) + (r) < -(e))" BY "((s) + (r) <= -(e))" COMPILE backend_plain.c)
+occ_caught_by(swapped_outside backend_edges host "plain one by one: ${decided_otherwise}")
+occ_plant(swapped_sight ${in_shadow} REPLACE "!(margin > error)" BY "!(margin >= error)")
+occ_caught_by(swapped_sight shadow "by hand" "Assertion 'hides_from.5, 0, 0, &sheet, &left.' failed")
+occ_plant(swapped_side ${in_shadow} REPLACE "f->facing = side > 0.0" BY "f->facing = side <= 0.0")
+occ_caught_by(swapped_side shadow "by hand" "Assertion 'hides_from.5, 0, 0, &sheet, &left.' failed")
+
+# --- an occluder grown by one part in a million --------------------------------------------------
+occ_plant(grown ${in_shadow} REPLACE "s->axis[k][j] = (double)box->axis[k][j]"
+    BY "s->axis[k][j] = (double)box->axis[k][j] * 1.000001")
+occ_caught_by(grown shadow "by hand" "Assertion 'hides_from.1001, 0, 0, &wall, &by_its_face. ==")
+occ_caught_by(grown shadow_planes exact "a normal is off by [.0-9]+ u")
+
+# --- a missing test of near faces, edges, or what the near plane cuts away -----------------------
+occ_plant(no_faces ${in_shadow} REPLACE "seen[k].sign && !add_face" BY "seen[k].sign > 1 && !add_face")
+occ_caught_by(no_faces shadow duels "${can_be_seen}")
+occ_plant(no_edge ${in_shadow} REPLACE "i < 4; i++) {\n            int turn" BY "i < 3; i++) {\n            int turn")
+occ_caught_by(no_edge shadow duels "${can_be_seen}")
+set(past_near "point [0-9]+ of object [0-9]+ can be seen")
+occ_plant(no_near_plane ${in_shadow} REPLACE "if (!survives_near(&s, camera, seen)) return false"
+    BY "(void)survives_near(&s, camera, seen)")
+occ_caught_by(no_near_plane near "at random" "${past_near}")
+occ_plant(no_near_reach ${in_shadow} REPLACE "cutter[3] - reach > size" BY "cutter[3] - 0.0 * reach > size")
+occ_caught_by(no_near_reach near "at random" "${past_near}")
+occ_plant(no_near_corner ${in_shadow} REPLACE "int c = 0; c < 4; c++" BY "int c = 0; c < 3; c++")
+occ_caught_by(no_near_corner near "at random" "${past_near}")
+
+# --- a frustum plane off by one ulp --------------------------------------------------------------
+# Towards the middle, where it loses objects, and away from it.
+set(outward "occ_round_up(wide + fabs(wide) * 0x1p-21)")
+occ_plant(plane_inward ${in_camera} REPLACE "${outward}" BY "nextafterf(${outward}, -1e38f)")
+occ_caught_by(plane_inward camera_planes frusta "${frustum_plane} inward")
+occ_plant(plane_outward ${in_camera} REPLACE "${outward}" BY "nextafterf(${outward}, 1e38f)")
+occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
+
+# --- an object hidden by what it owns ------------------------------------------------------------
+set(own "if (shadow->owner == row) continue;")
+occ_plant(owner_scalar IN src/backend_plain.c REPLACE "${own}" BY "" COMPILE backend_plain.c)
+occ_caught_by(owner_scalar backend_edges host "plain one by one: ${decided_otherwise}")
+occ_plant(owner_lanes IN src/lanes.c REPLACE "hidden &= ~(1u << own)" BY "hidden &= ~0u" COMPILE lanes_plain)
+occ_caught_by(owner_lanes backend_edges host "openmp plain: ${decided_otherwise}")
+occ_plant(owner_node IN src/lanes.c REPLACE "& ~owners_among(siblings, shadow->owner)"
+    BY "& ~(0u * owners_among(siblings, shadow->owner))" COMPILE lanes_plain)
+occ_caught_by(owner_node lanes variants "plain in round [0-9]+")
+if(occ_opencl)
+    occ_plant(owner_opencl IN kernels/test.cl REPLACE "${own}" BY "" COMPILE kernels)
+    occ_caught_by(owner_opencl backend_edges device "opencl on a device: ${decided_otherwise}")
+endif()
