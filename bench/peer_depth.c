@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { TILE = 4, PACKET = TILE * TILE }; // pixels on a side, rays
 

@@ -7,8 +7,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { CORNERS = 8, PAIR = 2 };
+enum { CORNERS = 8 };
 
 // Rays end a little before their corner, so that a surface which the corner lies in does not count
 // as in front of it.
@@ -71,21 +72,10 @@ static void skip_own(const struct RTCFilterFunctionNArguments *args)
         if (args->valid[i] && owners[triangles[i]] == ids[i]) args->valid[i] = 0;
 }
 
-// Two objects' rays, in lanes 0 to 7 and 8 to 15.
-typedef struct ray_pair {
-    struct RTCRay16 ray;
-    int valid[PAIR * CORNERS] __attribute__((aligned(64)));
-    uint32_t objects[PAIR], count;
-    bool filter;
-} ray_pair;
-
-// Adds rays from the eye to the corners of a box. False, and nothing is added, when a corner is in
-// front of the near plane: such an object is shown.
-static bool add_object(ray_pair *pair, const peer_camera *camera, const occ_box *box)
+// The rays to an object's corners. Returns false when a corner is not beyond the near plane.
+static bool aim(struct RTCRay8 *rays, const peer_camera *camera, const occ_box *box)
 {
-    struct RTCRay16 *ray = &pair->ray;
-    for (uint32_t corner = 0; corner < CORNERS; corner++) {
-        uint32_t lane = pair->count * CORNERS + corner;
+    for (int corner = 0; corner < CORNERS; corner++) {
         float to[3], depth = 0;
         for (int k = 0; k < 3; k++) {
             to[k] = box->center[k] - camera->eye[k];
@@ -94,72 +84,57 @@ static bool add_object(ray_pair *pair, const peer_camera *camera, const occ_box 
             depth += camera->forward[k] * to[k];
         }
         if (!(depth > camera->near_depth)) return false;
-        ray->dir_x[lane] = to[0];
-        ray->dir_y[lane] = to[1];
-        ray->dir_z[lane] = to[2];
-        ray->tnear[lane] = camera->near_depth / depth;
+        rays->dir_x[corner] = to[0];
+        rays->dir_y[corner] = to[1];
+        rays->dir_z[corner] = to[2];
+        rays->tnear[corner] = camera->near_depth / depth;
+        rays->tfar[corner] = NEARLY_THERE;
     }
     return true;
 }
 
-static void begin_pair(ray_pair *pair, const peer_camera *camera)
+static bool is_hidden(const rays_state *state, const peer_camera *camera, struct RTCRay8 *rays,
+                      uint32_t object)
 {
-    pair->count = 0;
-    pair->filter = false;
-    for (int i = 0; i < PAIR * CORNERS; i++) {
-        pair->ray.org_x[i] = camera->eye[0];
-        pair->ray.org_y[i] = camera->eye[1];
-        pair->ray.org_z[i] = camera->eye[2];
-        pair->ray.tfar[i] = NEARLY_THERE;
-        pair->ray.time[i] = 0;
-        pair->ray.mask[i] = UINT32_MAX;
-        pair->ray.flags[i] = 0;
-        pair->valid[i] = 0;
-    }
-}
-
-static void trace_pair(const rays_state *state, ray_pair *pair, uint32_t *mask)
-{
+    static const int valid[CORNERS] __attribute__((aligned(32))) = {-1, -1, -1, -1, -1, -1, -1, -1};
+    if (!aim(rays, camera, &state->boxes.scene->objects[object])) return false;
+    for (int corner = 0; corner < CORNERS; corner++)
+        rays->id[corner] = object;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    context.filter = pair->filter ? skip_own : NULL;
-    rtcOccluded16(pair->valid, state->tree.scene, &context, &pair->ray);
-    for (uint32_t i = 0; i < pair->count; i++) {
-        bool hidden = true;
-        for (uint32_t corner = 0; corner < CORNERS; corner++) // blocked: Embree sets -infinity
-            hidden = hidden && pair->ray.tfar[i * CORNERS + corner] < 0;
-        if (hidden) mask[pair->objects[i] / 32] &= ~(UINT32_C(1) << pair->objects[i] % 32);
-    }
+    if (state->owning[object / 32] >> object % 32 & 1) context.filter = skip_own;
+    rtcOccluded8(valid, state->tree.scene, &context, rays);
+    bool hidden = true;
+    for (int corner = 0; corner < CORNERS; corner++) // blocked: Embree sets it to -infinity
+        hidden = hidden && rays->tfar[corner] < 0;
+    return hidden;
 }
 
-static void test_object(const rays_state *state, const peer_camera *camera, ray_pair *pair,
-                        uint32_t object, uint32_t *mask)
+// Rays from the eye.
+static struct RTCRay8 rays_from(const peer_camera *camera)
 {
-    if (!add_object(pair, camera, &state->boxes.scene->objects[object])) return;
-    for (uint32_t corner = 0; corner < CORNERS; corner++) {
-        pair->ray.id[pair->count * CORNERS + corner] = object;
-        pair->valid[pair->count * CORNERS + corner] = -1;
+    struct RTCRay8 rays;
+    memset(&rays, 0, sizeof rays);
+    for (int i = 0; i < CORNERS; i++) {
+        rays.org_x[i] = camera->eye[0];
+        rays.org_y[i] = camera->eye[1];
+        rays.org_z[i] = camera->eye[2];
+        rays.mask[i] = UINT32_MAX;
     }
-    pair->filter = pair->filter || (state->owning[object / 32] >> object % 32 & 1);
-    pair->objects[pair->count++] = object;
-    if (pair->count < PAIR) return;
-    trace_pair(state, pair, mask);
-    begin_pair(pair, camera);
+    return rays;
 }
 
 static void test_blocks(const void *state, const peer_camera *camera, size_t first, size_t end,
                         uint32_t *mask)
 {
     unsigned control = peer_float_flush();
-    ray_pair pair;
-    begin_pair(&pair, camera);
+    struct RTCRay8 rays = rays_from(camera);
     for (size_t block = first; block < end; block++)
         for (uint32_t left = mask[block]; left != 0; left &= left - 1) {
-            size_t object = block * PEER_BLOCK + (size_t)__builtin_ctz(left);
-            test_object(state, camera, &pair, (uint32_t)object, mask);
+            uint32_t object = (uint32_t)(block * PEER_BLOCK) + (uint32_t)__builtin_ctz(left);
+            if (is_hidden(state, camera, &rays, object)) mask[block] ^= left & (0u - left);
         }
-    if (pair.count > 0) trace_pair(state, &pair, mask);
     peer_float_restore(control);
 }
 
