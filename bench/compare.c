@@ -10,7 +10,7 @@
 #include <stdio.h>
 
 static const char compare_usage[] =
-    "usage: occlude-bench compare T.tru R.vis [--scene F.obs [--settle N]]\n"
+    "usage: occlude-bench compare T.tru R.vis [--scene F.obs [--settle N] [--hidden N]]\n"
     "\n"
     "Judges the verdicts of `cull --out R.vis` by what `truth` found. The last line printed:\n"
     "\n"
@@ -24,6 +24,7 @@ static const char compare_usage[] =
     "line\n"
     "                 before the last says what came of it, and the last one counts as it says\n"
     "  --settle N     up to so many objects, those reported hidden first (default 10000)\n"
+    "  --hidden N     and up to so many that both take for hidden: one more line (default none)\n"
     "\n"
     "Up to ten false-hidden objects are named on standard error. Exit status 3 if there is one.\n"
     "\n"
@@ -33,7 +34,7 @@ enum { NAMED_AT_MOST = 10, STATUS_FALSE_HIDDEN = 3 };
 
 typedef struct compare_arguments {
     const char *truth, *result, *scene;
-    uint32_t limit; // 0: not given
+    uint32_t disagreed, agreed; // how many to settle; 0: not given
 } compare_arguments;
 
 // Whom to name, and what the judge said of them, if there is one.
@@ -50,6 +51,8 @@ static const char *judges_word(const compare_namer *namer, uint32_t frame, uint3
             return ", and so does the judge";
         case SETTLE_HIDDEN:
             return ", but the judge does not";
+        case SETTLE_DOUBTFUL:
+            return ", and the judge is in doubt";
         case SETTLE_UNASKED:
             return ", and the judge was not asked";
         }
@@ -99,6 +102,12 @@ static int refuse_pair(const char *one, const char *other, const char *complaint
 #ifdef OCC_BENCH_JUDGE
 static void print_settled(const settle_sums *sums)
 {
+    if (sums->agreed_judged > 0)
+        printf("hidden_judged=%llu hidden_seen=%llu hidden_doubtful=%llu "
+               "hidden_unjudged=%llu\n",
+               (unsigned long long)sums->agreed_judged, (unsigned long long)sums->agreed_seen,
+               (unsigned long long)sums->agreed_doubtful,
+               (unsigned long long)sums->agreed_unjudged);
     printf("settled=%llu judged_visible=%llu judged_hidden=%llu unsettled=%llu "
            "false_confirmed=%llu false_refuted=%llu\n",
            (unsigned long long)sums->settled, (unsigned long long)sums->judged_visible,
@@ -114,10 +123,9 @@ static int judge_by_judge(const compare_arguments *arguments, const obs_scene *s
     const char *complaint = settle_check(scene, truth);
     if (complaint) return refuse_pair(arguments->truth, arguments->scene, complaint);
     settle *s = settle_create(scene, truth);
-    complaint = "not enough memory";
-    if (s)
-        complaint = settle_result(s, result, arguments->limit ? arguments->limit : SETTLE_DEFAULT,
-                                  &settled, &sums);
+    const settle_limits limits = {arguments->disagreed ? arguments->disagreed : SETTLE_DEFAULT,
+                                  arguments->agreed};
+    complaint = s ? settle_result(s, result, limits, &settled, &sums) : "not enough memory";
     int status = 1;
     if (complaint) {
         fprintf(stderr, "occlude-bench: %s: %s\n", arguments->scene, complaint);
@@ -159,15 +167,16 @@ static int parse_compare(int argc, char **argv, compare_arguments *arguments)
 {
     *arguments = (compare_arguments){0};
     const options_entry entries[] = {{"--scene", OPTIONS_TEXT, &arguments->scene},
-                                     {"--settle", OPTIONS_COUNT, &arguments->limit},
+                                     {"--settle", OPTIONS_COUNT, &arguments->disagreed},
+                                     {"--hidden", OPTIONS_COUNT, &arguments->agreed},
                                      {NULL, OPTIONS_FLAG, NULL}};
     char *words[2];
     int count = options_parse(argc, argv, entries, words, 2);
     if (count == OPTIONS_HELP) return OPTIONS_HELP;
     if (count == OPTIONS_BAD) return 2;
     if (count != 2) return options_complain(argv[0], "expected a truth file and a result file");
-    if (arguments->limit && !arguments->scene)
-        return options_complain(argv[0], "expected --scene F.obs beside --settle");
+    if ((arguments->disagreed || arguments->agreed) && !arguments->scene)
+        return options_complain(argv[0], "expected --scene F.obs beside --settle and --hidden");
     arguments->truth = words[0];
     arguments->result = words[1];
     return 0;

@@ -30,7 +30,7 @@ static const bench_command bench_commands[] = {
     {"truth", "truth F.obs --out T.tru [--frames LIST] [--size WxH]",
      "find out by sampling what can truly be seen",
      "occlude-bench truth city.obs --frames 0,20,40 --out city.tru", bench_truth},
-    {"compare", "compare T.tru R.vis [--scene F.obs [--settle N]]",
+    {"compare", "compare T.tru R.vis [--scene F.obs [--settle N] [--hidden N]]",
      "judge a result by it: false-hidden and missed objects",
      "occlude-bench compare city.tru city.vis --scene city.obs", bench_compare},
     {"error", "error [--quick] [--scenes DIR] [--scene NAME] [--out DIR] ...",

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// So many candidates are tried first. Most objects that are hidden are hidden by these, and that
-// more occluders take part changes nothing then.
+// So many candidates are tried first. Most objects that are hidden are hidden by these, and no
+// further occluder changes that.
 enum { FIRST_TRIED = 24, THEN_TIMES = 6 };
 
 struct settle {
@@ -19,7 +19,8 @@ struct settle {
     // the frame in hand
     settle_frame frame;
     judge *judge;
-    settle_candidate *candidates;
+    settle_candidate *candidates; // of the object in hand
+    uint32_t candidate_count;
     occ_box *boxes;
 };
 
@@ -87,66 +88,80 @@ static const char *enter_frame(settle *s, uint32_t index)
     return s->judge ? NULL : "its camera has no eye or no direction of view";
 }
 
-// Drops the occluders that only some readings let hide something.
-static uint32_t keep_plain(settle *s, uint32_t object, uint32_t count)
+// Adds boxes from the list of candidates, as many as `wanted` in all if there are so many, and
+// returns how many there are then. `*next` is the first candidate not looked at yet.
+static uint32_t add_boxes(settle *s, uint32_t object, bool only_plain, uint32_t boxes,
+                          uint32_t wanted, uint32_t *next)
 {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t occluder = s->candidates[i].occluder;
-        if (settle_frame_is_plain(&s->frame, &s->scene->occluders[occluder].box,
-                                  &s->scene->objects[object]))
-            s->candidates[kept++] = s->candidates[i];
+    for (; boxes < wanted && *next < s->candidate_count; ++*next) {
+        const occ_box *box = &s->scene->occluders[s->candidates[*next].occluder].box;
+        if (!only_plain || settle_frame_is_plain(&s->frame, box, &s->scene->objects[object]))
+            s->boxes[boxes++] = *box;
     }
-    return kept;
+    return boxes;
 }
 
-// Whether the judge sees the object past the occluders that can matter. Fewer than all of them are
-// enough to say that it does not.
+// Whether the judge sees the object past its candidates, or past the plain ones. Some of them may
+// be enough to say that it does not.
 static bool is_seen(settle *s, uint32_t object, bool only_plain)
 {
-    uint32_t count = settle_frame_select(&s->frame, object, s->candidates);
-    if (only_plain) count = keep_plain(s, object, count);
-    for (uint32_t i = 0; i < count; i++)
-        s->boxes[i] = s->scene->occluders[s->candidates[i].occluder].box;
-    for (uint32_t tried = FIRST_TRIED;; tried *= THEN_TIMES) {
-        bool are_all = tried >= count;
-        judge_set_occluders(s->judge, s->boxes, NULL, are_all ? count : tried);
+    uint32_t boxes = 0, next = 0;
+    for (uint32_t wanted = FIRST_TRIED;; wanted *= THEN_TIMES) {
+        boxes = add_boxes(s, object, only_plain, boxes, wanted, &next);
+        judge_set_occluders(s->judge, s->boxes, NULL, boxes);
         if (!judge_sees(s->judge, &s->scene->objects[object], -1)) return false;
-        if (are_all) return true;
+        if (next == s->candidate_count) return true;
     }
+}
+
+static settle_verdict ask(settle *s, uint32_t object)
+{
+    s->candidate_count = settle_frame_select(&s->frame, object, s->candidates);
+    if (is_seen(s, object, true))
+        return is_seen(s, object, false) ? SETTLE_VISIBLE : SETTLE_DOUBTFUL;
+    bool is_outside = judge_frustum(s->judge, &s->scene->objects[object]) == JUDGE_OUTSIDE;
+    return is_outside ? SETTLE_DOUBTFUL : SETTLE_HIDDEN;
 }
 
 // --- choosing ------------------------------------------------------------------------------------
 
 // So many of a total are taken, evenly.
 typedef struct ration {
-    uint64_t total, share, met;
+    uint64_t total, share;
+    uint64_t carried; // less than total
 } ration;
 
 static bool takes_next(ration *r)
 {
-    uint64_t before = r->met * r->share / r->total;
-    r->met++;
-    return r->met * r->share / r->total > before;
+    r->carried += r->share;
+    if (r->carried < r->total) return false;
+    r->carried -= r->total;
+    return true;
 }
 
 typedef struct task {
     const vis_result *result;
-    ration missed, hidden; // reported visible, reported hidden
+    ration missed, hidden; // disagreed on: reported visible, reported hidden
+    ration agreed;         // hidden for both
     settle_sums *sums;
     truth_result *settled;
 } task;
 
-// The ration that a disagreement belongs to, or NULL.
+// The ration that an object belongs to, or NULL: what is outside, or visible for both.
 static ration *ration_of(task *t, const truth_verdict *verdict, uint32_t frame, uint32_t object)
 {
     if (!(verdict->flags & TRUTH_IN_FRUSTUM)) return NULL;
     bool is_shown = vis_is_visible(t->result, frame, object);
-    if (truth_is_visible(verdict) == is_shown) return NULL;
-    return is_shown ? &t->missed : &t->hidden;
+    if (is_shown) return truth_is_visible(verdict) ? NULL : &t->missed;
+    return truth_is_visible(verdict) ? &t->hidden : &t->agreed;
 }
 
-static void share_out(const settle *s, task *t, uint64_t limit)
+static uint64_t least(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+static void share_out(const settle *s, task *t, settle_limits limits)
 {
     const truth_result *truth = s->truth;
     for (uint32_t row = 0; row < truth->frame_count; row++)
@@ -155,32 +170,46 @@ static void share_out(const settle *s, task *t, uint64_t limit)
             ration *from = ration_of(t, verdict, truth->frames[row], i);
             if (from) from->total++;
         }
-    t->hidden.share = t->hidden.total < limit ? t->hidden.total : limit;
-    uint64_t left = limit - t->hidden.share;
-    t->missed.share = t->missed.total < left ? t->missed.total : left;
+    t->hidden.share = least(t->hidden.total, limits.disagreed);
+    t->missed.share = least(t->missed.total, limits.disagreed - t->hidden.share);
+    t->agreed.share = least(t->agreed.total, limits.agreed);
     t->sums->unsettled = t->hidden.total + t->missed.total - t->hidden.share - t->missed.share;
+    t->sums->agreed_unjudged = t->agreed.total - t->agreed.share;
+}
+
+// Doubt leaves false-hidden what sampling saw, and missed what it did not.
+static void count_object(settle_sums *sums, bool is_agreed, bool was_visible, settle_verdict said)
+{
+    if (is_agreed) {
+        sums->agreed_judged++;
+        sums->agreed_seen += said == SETTLE_VISIBLE;
+        sums->agreed_doubtful += said == SETTLE_DOUBTFUL;
+        return;
+    }
+    bool is_visible = was_visible ? said != SETTLE_HIDDEN : said == SETTLE_VISIBLE;
+    sums->settled++;
+    sums->judged_visible += is_visible;
+    sums->judged_hidden += !is_visible;
+    sums->false_confirmed += was_visible && is_visible;
+    sums->false_refuted += was_visible && !is_visible;
 }
 
 // Asks the judge, if nobody has, and enters what it says.
-static const char *settle_object(settle *s, task *t, uint32_t row, uint32_t object)
+static const char *settle_object(settle *s, task *t, uint32_t row, uint32_t object, bool is_agreed)
 {
     size_t place = (size_t)row * s->truth->object_count + object;
-    bool was_visible = truth_is_visible(&s->truth->verdicts[place]);
     if (s->verdicts[place] == SETTLE_UNASKED) {
         const char *complaint = s->judge ? NULL : enter_frame(s, s->truth->frames[row]);
         if (complaint) return complaint;
-        s->verdicts[place] = is_seen(s, object, was_visible) ? SETTLE_VISIBLE : SETTLE_HIDDEN;
+        s->verdicts[place] = (uint8_t)ask(s, object);
     }
-    bool is_visible = s->verdicts[place] == SETTLE_VISIBLE;
-    t->sums->settled++;
-    t->sums->judged_visible += is_visible;
-    t->sums->judged_hidden += !is_visible;
-    t->sums->false_confirmed += was_visible && is_visible;
-    t->sums->false_refuted += was_visible && !is_visible;
+    settle_verdict said = (settle_verdict)s->verdicts[place];
     truth_verdict *verdict = &t->settled->verdicts[place];
-    if (is_visible && !was_visible) verdict->rays = 1;
-    if (!is_visible) verdict->samples = verdict->rays = 0;
-    progress_step(t->sums->settled);
+    bool was_visible = truth_is_visible(verdict);
+    if (said == SETTLE_VISIBLE && !was_visible) verdict->rays = 1;
+    if (said == SETTLE_HIDDEN) verdict->samples = verdict->rays = 0;
+    count_object(t->sums, is_agreed, was_visible, said);
+    progress_step(t->sums->settled + t->sums->agreed_judged);
     return NULL;
 }
 
@@ -191,13 +220,13 @@ static const char *settle_row(settle *s, task *t, uint32_t row)
     for (uint32_t i = 0; i < truth->object_count && !complaint; i++) {
         const truth_verdict *verdict = &truth->verdicts[(size_t)row * truth->object_count + i];
         ration *from = ration_of(t, verdict, truth->frames[row], i);
-        if (from && takes_next(from)) complaint = settle_object(s, t, row, i);
+        if (from && takes_next(from)) complaint = settle_object(s, t, row, i, from == &t->agreed);
     }
     leave_frame(s);
     return complaint;
 }
 
-const char *settle_result(settle *s, const vis_result *result, uint64_t limit,
+const char *settle_result(settle *s, const vis_result *result, settle_limits limits,
                           truth_result *settled, settle_sums *sums)
 {
     const truth_result *truth = s->truth;
@@ -209,8 +238,8 @@ const char *settle_result(settle *s, const vis_result *result, uint64_t limit,
     memcpy(settled->verdicts, truth->verdicts,
            (size_t)truth->object_count * truth->frame_count * sizeof *truth->verdicts);
     task t = {.result = result, .sums = sums, .settled = settled};
-    share_out(s, &t, limit);
-    progress_begin("settling", t.hidden.share + t.missed.share);
+    share_out(s, &t, limits);
+    progress_begin("settling", t.hidden.share + t.missed.share + t.agreed.share);
     const char *complaint = NULL;
     for (uint32_t row = 0; row < truth->frame_count && !complaint; row++)
         complaint = settle_row(s, &t, row);

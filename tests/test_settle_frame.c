@@ -14,7 +14,7 @@
 enum {
     OBJECTS = 24,
     OCCLUDERS = 40,
-    SCENES = 300 / OCC_TEST_SLOWNESS,
+    SCENES = 300,
     KINDS = 5 // of cameras
 };
 

@@ -92,7 +92,8 @@ compare_group()
     expect 2 err 'one word too many' compare city.tru city.vis city.obs
     expect 2 err '--sense: no such option' compare city.tru city.vis --sense
     expect 2 err '--scene: expected a value after it' compare city.tru city.vis --scene
-    expect 2 err 'expected --scene F.obs beside --settle' compare city.tru city.vis --settle 5
+    expect 2 err 'expected --scene F.obs beside --settle and --hidden' compare city.tru city.vis --settle 5
+    expect 2 err 'expected --scene F.obs beside' compare city.tru city.vis --hidden 5
     for limit in '' 0 -1 x 1.5 4294967296; do
         expect 2 err '--settle: expected a number from 1' \
             compare city.tru city.vis --scene city.obs --settle "$limit"
@@ -127,6 +128,11 @@ settle_group()
         fail "the line before the last is not that of the judge"
     tail -n 1 out | grep -qE '^frames=2 in_frustum=[0-9.]+ visible=[0-9.]+ false_hidden=0 largest_px=0 missed=[0-9]+ missed_pct=[0-9.]+$' ||
         fail "the last line is not the verdict"
+
+    expect 0 out ' unsettled=0 ' compare city.tru city.vis --scene city.obs --hidden 100000
+    head -n 1 out | grep -qE '^hidden_judged=[1-9][0-9]* hidden_seen=0 hidden_doubtful=0 hidden_unjudged=0$' ||
+        fail "the first line is not that of what both take for hidden"
+    [ "$(wc -l <out)" -eq 3 ] || fail "prints other than three lines"
 
     # What can be seen and is reported hidden is confirmed; everything reported visible, missed.
     { head -c 8 city.vis && head -c $(($(wc -c <city.vis) - 8)) /dev/zero; } >none.vis
