@@ -21,3 +21,12 @@ int bench_picture(int argc, char **argv)
     return 1;
 }
 #endif
+
+#ifndef OCC_BENCH_HARD
+int bench_hard(int argc, char **argv)
+{
+    (void)argc;
+    fprintf(stderr, "occlude-bench %s: built without GMP, which it needs\n", argv[0]);
+    return 1;
+}
+#endif

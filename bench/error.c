@@ -31,6 +31,9 @@ static const char error_usage[] =
     "  --settle N     objects of a result that are put to the exact judge where it and sampling "
     "do\n"
     "                 not agree, at most (default 10000; needs a build with GMP)\n"
+    "  --hidden N     objects of a result, hidden for it and for sampling, that the judge looks "
+    "at\n"
+    "                 too, at most (default 1000)\n"
     "  --size WxH     samples of truths (default 4096x2304)\n"
     "  --repeat R     timed culls of each frame (default 3)\n"
     "\n"
@@ -39,7 +42,7 @@ static const char error_usage[] =
     "\n"
     "Example: occlude-bench error --quick --out error\n";
 
-enum { MAX_SCENES = 32, STATUS_FALSE_HIDDEN = 3 };
+enum { MAX_SCENES = 32, HIDDEN_DEFAULT = 1000, STATUS_FALSE_HIDDEN = 3 };
 
 typedef struct error_arguments {
     const char *out, *folder, *size;
@@ -77,13 +80,16 @@ static bool is_name(const char *text)
 static int parse_error(int argc, char **argv, error_arguments *arguments)
 {
     *arguments = (error_arguments){
-        .out = "error", .size = "4096x2304", .options = {.repeats = 3, .settle = SETTLE_DEFAULT}};
+        .out = "error",
+        .size = "4096x2304",
+        .options = {.repeats = 3, .settle = SETTLE_DEFAULT, .hidden = HIDDEN_DEFAULT}};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--scenes", OPTIONS_TEXT, &arguments->folder},
                                      {"--size", OPTIONS_TEXT, &arguments->size},
                                      {"--hard", OPTIONS_FLAG, &arguments->wants_hard},
                                      {"--quick", OPTIONS_FLAG, &arguments->options.is_quick},
                                      {"--settle", OPTIONS_COUNT, &arguments->options.settle},
+                                     {"--hidden", OPTIONS_COUNT, &arguments->options.hidden},
                                      {"--repeat", OPTIONS_COUNT, &arguments->options.repeats},
                                      {NULL, OPTIONS_FLAG, NULL}};
     char *words[1];

@@ -3,6 +3,7 @@
 
 #ifdef OCC_BENCH_JUDGE
 
+#include "hard_scene.h"
 #include "peer.h"
 #include "progress.h"
 #include "trial.h"
@@ -69,15 +70,12 @@ static void close_benches(hard_trial *trial)
 
 // --- the others ----------------------------------------------------------------------------------
 
-// They take perspective cameras with OpenGL's depths. And they know no occluder that is nobody's:
-// it becomes part of an object of its own.
+// They take perspective cameras. And they know no occluder that is nobody's: it becomes part of an
+// object of its own.
 static hard_scene describe(const family_world *world)
 {
-    bool is_usable = world->has_parts && world->camera.depth == OCC_DEPTH_MINUS_ONE_TO_ONE &&
-                     world->proj[11] < 0;
-    hard_scene result = {.is_usable = is_usable};
+    hard_scene result = {.is_usable = world->proj[11] < 0};
     obs_scene *scene = &result.scene;
-    obs_frame frame = {0};
     for (uint32_t i = 0; i < world->object_count; i++)
         obs_add_object(scene, &world->objects[i]);
     for (uint32_t i = 0; i < world->occluder_count; i++) {
@@ -86,12 +84,7 @@ static hard_scene describe(const family_world *world)
                                               : obs_add_object(scene, &occluder->box);
         obs_add_occluder(scene, &occluder->box, owner);
     }
-    for (int k = 0; k < 3; k++)
-        frame.eye[k] = (float)world->eye[k];
-    for (int k = 0; k < 3; k++)
-        frame.dir[k] = -world->view[4 * k + 2];
-    memcpy(frame.view, world->view, sizeof frame.view);
-    memcpy(frame.proj, world->proj, sizeof frame.proj);
+    obs_frame frame = hard_scene_frame(world);
     obs_add_frame(scene, &frame);
     return result;
 }

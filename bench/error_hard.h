@@ -8,9 +8,8 @@
 #include "error_measure.h"
 
 /// Appends a row for each family, scale, method and backend. In it `frames` are worlds, and objects
-/// are summed over them; nothing is timed. A method that is not the library's sits out the worlds
-/// whose cameras it does not take: orthographic ones, other depths than OpenGL's, rows in any
-/// direction. Without a
+/// are summed over them; nothing is timed. A method that is not the library's sits out the
+/// orthographic worlds, which it does not take. Without a
 /// judge says so and appends nothing.
 error_status error_hard(const error_options *options, error_table *table);
 

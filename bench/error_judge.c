@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #ifdef OCC_BENCH_JUDGE
-static const char *count(error_judge *judge, const vis_result *result, uint32_t limit,
+static const char *count(error_judge *judge, const vis_result *result, settle_limits limits,
                          compare_sums *sums, settle_sums *settled)
 {
     truth_result truth;
@@ -12,7 +12,7 @@ static const char *count(error_judge *judge, const vis_result *result, uint32_t 
     if (complaint) return complaint;
     if (!judge->settle) judge->settle = settle_create(judge->scene, judge->truth);
     if (!judge->settle) return "not enough memory";
-    complaint = settle_result(judge->settle, result, limit, &truth, settled);
+    complaint = settle_result(judge->settle, result, limits, &truth, settled);
     if (complaint) return complaint;
     *sums = compare_count(&truth, result, NULL, NULL);
     truth_free(&truth);
@@ -25,10 +25,10 @@ void error_judge_free(error_judge *judge)
     judge->settle = NULL;
 }
 #else
-static const char *count(error_judge *judge, const vis_result *result, uint32_t limit,
+static const char *count(error_judge *judge, const vis_result *result, settle_limits limits,
                          compare_sums *sums, settle_sums *settled)
 {
-    (void)limit;
+    (void)limits;
     *settled = (settle_sums){0};
     *sums = compare_count(judge->truth, result, NULL, NULL);
     return NULL;
@@ -40,11 +40,11 @@ void error_judge_free(error_judge *judge)
 }
 #endif
 
-bool error_judge_count(error_judge *judge, const vis_result *result, uint32_t limit,
+bool error_judge_count(error_judge *judge, const vis_result *result, settle_limits limits,
                        compare_sums *sums, settle_sums *settled)
 {
     const char *complaint = compare_check(judge->truth, result);
-    if (!complaint) complaint = count(judge, result, limit, sums, settled);
+    if (!complaint) complaint = count(judge, result, limits, sums, settled);
     if (complaint) fprintf(stderr, "occlude-bench: a result cannot be judged: %s\n", complaint);
     return !complaint;
 }

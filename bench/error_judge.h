@@ -15,8 +15,8 @@ typedef struct error_judge {
     settle *settle; ///< Made when first needed. Remembers what it was asked.
 } error_judge;
 
-/// Up to `limit` objects go to the exact judge. False after a message.
-bool error_judge_count(error_judge *judge, const vis_result *result, uint32_t limit,
+/// Up to `limits` objects go to the exact judge. False after a message.
+bool error_judge_count(error_judge *judge, const vis_result *result, settle_limits limits,
                        compare_sums *sums, settle_sums *settled);
 
 void error_judge_free(error_judge *judge);

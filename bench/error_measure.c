@@ -23,7 +23,7 @@ typedef struct worker {
     const char *name;
     const obs_scene *scene;
     uint64_t identity;
-    uint32_t settle;
+    settle_limits limits;
     error_table *table;
     // The latest run whose verdicts are not to equal an earlier one's, with verdicts and errors.
     const error_run *first;
@@ -117,7 +117,7 @@ static bool judge_run(worker *work, const error_run *run, error_judge *judge, vi
         row->settled = work->settled;
         return true;
     }
-    if (!error_judge_count(judge, verdicts, work->settle, &row->sums, &row->settled)) return false;
+    if (!error_judge_count(judge, verdicts, work->limits, &row->sums, &row->settled)) return false;
     if (must_repeat) {
         complain(work, run);
         work->status = ERROR_DIFFERENT;
@@ -183,7 +183,7 @@ error_status error_measure_scene(const error_options *options, const error_truth
                    .name = name,
                    .scene = scene,
                    .identity = error_scene_identity(scene),
-                   .settle = options->settle,
+                   .limits = {.disagreed = options->settle, .agreed = options->hidden},
                    .table = table};
     error_stage usual;
     if (!make_stage(&work, 1, &usual) || !run_all(&work, runs, count, &usual))

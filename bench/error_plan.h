@@ -40,7 +40,8 @@ typedef struct error_run {
 /// What a plan depends on.
 typedef struct error_options {
     uint32_t repeats;
-    uint32_t settle; ///< Most objects of a result that are put to the exact judge.
+    uint32_t settle; ///< Most disagreements of a result with sampling that the exact judge decides.
+    uint32_t hidden; ///< Most objects hidden for both that it looks at.
     bool is_quick;   ///< Fewer knobs.
     bool has_opencl; ///< There is a device.
 } error_options;

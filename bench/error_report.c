@@ -61,9 +61,10 @@ void error_write_setup(FILE *stream, const error_findings *findings)
     build_info_write(stream, findings->scenes.driver);
     fprintf(stream, "# peer=%s\n# repeats=%u\n", findings->scenes.peer, options->repeats);
 #ifdef OCC_BENCH_JUDGE
-    fprintf(stream, "# settled_at_most=%u\n", options->settle);
+    fprintf(stream, "# settled_at_most=%u\n# hidden_judged_at_most=%u\n", options->settle,
+            options->hidden);
 #else
-    fputs("# settled_at_most=0\n", stream);
+    fputs("# settled_at_most=0\n# hidden_judged_at_most=0\n", stream);
 #endif
 }
 

@@ -51,7 +51,8 @@ void error_csv_header(FILE *stream)
     fputs("scene,method,backend,threads,min_area_sr,max_occluders,grain,rays,scale,frames,objects,"
           "in_frustum_objects,visible_objects,median_ms,p99_ms,false_hidden_objects,largest_px,"
           "missed_objects,missed_pct,settled_objects,judged_visible_objects,unsettled_objects,"
-          "false_confirmed_objects,false_refuted_objects,build_ms,memory_bytes,skipped\n",
+          "false_confirmed_objects,false_refuted_objects,agreed_judged_objects,"
+          "agreed_seen_objects,build_ms,memory_bytes,skipped\n",
           stream);
 }
 
@@ -86,6 +87,8 @@ static void write_errors(FILE *stream, const error_row *row)
     write_count(stream, settled->unsettled);
     write_count(stream, settled->false_confirmed);
     write_count(stream, settled->false_refuted);
+    write_count(stream, settled->agreed_judged);
+    write_count(stream, settled->agreed_seen);
 }
 
 void error_csv_row(FILE *stream, const error_row *row)
@@ -95,7 +98,7 @@ void error_csv_row(FILE *stream, const error_row *row)
     if (run->skipped) {
         fputs(",", stream);
         write_setting(stream, run);
-        fprintf(stream, ",%u,,,,,,,,,,,,,,,,\"%s\"\n", row->objects, run->skipped);
+        fprintf(stream, ",%u,,,,,,,,,,,,,,,,,,\"%s\"\n", row->objects, run->skipped);
         return;
     }
     fprintf(stream, "%u,", row->threads);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// labels: unit slow
+// labels: unit
 // timeout: 120
 // 2^20 boxes in one place: no cell can tell them apart, and one wall hides all or none.
 #include "support.h"

@@ -31,9 +31,9 @@ typedef struct family_place {
 typedef struct family_world {
     occ_camera_desc camera;
     double eye[3], origin[3]; ///< What camera.eye and camera.origin point to, if they are set.
-    float view[16], proj[16]; ///< The camera's parts in OpenGL's conventions, eye included: about
-                              ///< what a scene file would say of it.
-    bool has_parts;           ///< Whether there are such parts.
+    /// The camera's parts, eye included, in OpenGL's conventions but for the range of depths, which
+    /// is the camera's: what a scene file would say of it. Rounded: the camera is the matrix.
+    float view[16], proj[16];
     occ_box objects[FAMILY_OBJECTS];
     world_occluder occluders[FAMILY_OCCLUDERS];
     uint32_t object_count, occluder_count;

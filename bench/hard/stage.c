@@ -262,7 +262,6 @@ static void set_parts(stage *s, double row[3][3], double clip[4][4], const doubl
         for (int c = 0; c < 4; c++)
             world->proj[4 * c + r] = (float)clip[r][c];
     }
-    world->has_parts = true;
 }
 
 // Rows times columns; where the matrix counts from `from`, the eye is at `eye` - `from`.

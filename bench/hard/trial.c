@@ -57,6 +57,11 @@ void trial_close(trial_bench *bench)
     free(bench);
 }
 
+const occ_view *trial_view(const trial_bench *bench)
+{
+    return bench->view;
+}
+
 static occ_result fill_scene(occ_scene *scene, const family_world *world)
 {
     occ_object handles[FAMILY_OBJECTS], owners[FAMILY_OCCLUDERS];

@@ -43,6 +43,9 @@ typedef struct trial_bench trial_bench;
 trial_bench *trial_open(occ_backend backend, uint32_t threads);
 void trial_close(trial_bench *bench);
 
+/// Its view, to ask what device it is on.
+const occ_view *trial_view(const trial_bench *bench);
+
 /// Culls the world as `desc` says and adds to `tally`. False if the library refuses any of it or
 /// memory runs out; trial_error() says what. With method FRUSTUM all that is hidden counts as
 /// missed.
