@@ -30,10 +30,10 @@ static const char error_usage[] =
     "  --quick        scenes of at most 10,000 objects, fewer settings and worlds\n"
     "  --settle N     objects of a result that are put to the exact judge where it and sampling "
     "do\n"
-    "                 not agree, at most (default 10000; needs a build with GMP)\n"
+    "                 not agree, at most (default 3000; needs a build with GMP)\n"
     "  --hidden N     objects of a result, hidden for it and for sampling, that the judge looks "
     "at\n"
-    "                 too, at most (default 1000)\n"
+    "                 too, at most (default 300)\n"
     "  --size WxH     samples of truths (default 4096x2304)\n"
     "  --repeat R     timed culls of each frame (default 3)\n"
     "\n"
@@ -42,7 +42,7 @@ static const char error_usage[] =
     "\n"
     "Example: occlude-bench error --quick --out error\n";
 
-enum { MAX_SCENES = 32, HIDDEN_DEFAULT = 1000, STATUS_FALSE_HIDDEN = 3 };
+enum { MAX_SCENES = 32, SETTLED_DEFAULT = 3000, HIDDEN_DEFAULT = 300, STATUS_FALSE_HIDDEN = 3 };
 
 typedef struct error_arguments {
     const char *out, *folder, *size;
@@ -82,7 +82,7 @@ static int parse_error(int argc, char **argv, error_arguments *arguments)
     *arguments = (error_arguments){
         .out = "error",
         .size = "4096x2304",
-        .options = {.repeats = 3, .settle = SETTLE_DEFAULT, .hidden = HIDDEN_DEFAULT}};
+        .options = {.repeats = 3, .settle = SETTLED_DEFAULT, .hidden = HIDDEN_DEFAULT}};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--scenes", OPTIONS_TEXT, &arguments->folder},
                                      {"--size", OPTIONS_TEXT, &arguments->size},
