@@ -90,7 +90,7 @@ static void put_panel(FILE *stream, int column, double left, double right, const
             ? "at screen 0.5,0.995 center top horizontal maxcols 4 Left reverse width 2 samplen 1"
             : "off");
     for (int s = 0; s < STYLES; s++) {
-        double shift = 0.08 * (STYLES / 2 - s);
+        double shift = 0.08 * ((STYLES - 1) / 2.0 - s);
         fprintf(stream,
                 "%s $style%d using %d:($3%+.2f) with points pointtype %d pointsize 1 linewidth 1.5 "
                 "linecolor rgb '#%06x' title ",

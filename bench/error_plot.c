@@ -11,29 +11,29 @@
 // point types: 4, 6, 8, 10, 12, 14 are hollow, the next number is the same one filled.
 typedef struct plot_style {
     const char *method, *backend;
-    uint32_t threads;   // as planned: 0 means all
     const char *varied; // what the settings drawn vary
-    bool skips_default; // it stands in another curve
     const char *title;
+    double size;
+    uint32_t threads; // as planned: 0 means all
     unsigned color;
     int shape;
-    double size;
+    bool skips_default; // it stands in another curve
     bool is_joined;
 } plot_style;
 
 static const plot_style plot_styles[] = {
-    {"single", "openmp", 1, "min_area", false, "single, 1 thread, min_area", 0x0050a0, 7, 1.2,
+    {"single", "openmp", "min_area", "single, 1 thread, min_area", 1.2, 1, 0x0050a0, 7, false,
      true},
-    {"single", "openmp", 1, "max_occluders", true, "  max_occluders", 0x0050a0, 8, 1, false},
-    {"single", "openmp", 1, "grain", true, "  grain", 0x0050a0, 10, 1, false},
-    {"single", "openmp", 0, "min_area", false, "single, all threads", 0x30a0e0, 7, 0.9, true},
-    {"single", "opencl", 0, "min_area", false, "single, OpenCL", 0x00a080, 7, 0.9, true},
-    {"pairwise", "openmp", 1, NULL, false, "pairwise, 1 thread", 0x8040c0, 13, 1.3, false},
-    {"frustum", "plain", 0, NULL, false, "frustum alone, 1 thread", 0x000000, 2, 1.2, false},
-    {"embree-depth", "plain", 0, "rays", false, "Embree, depth buffer, 1 thread", 0xc06000, 11, 1.1,
+    {"single", "openmp", "max_occluders", "  max_occluders", 1, 1, 0x0050a0, 8, true, false},
+    {"single", "openmp", "grain", "  grain", 1, 1, 0x0050a0, 10, true, false},
+    {"single", "openmp", "min_area", "single, all threads", 0.9, 0, 0x30a0e0, 7, false, true},
+    {"single", "opencl", "min_area", "single, OpenCL", 0.9, 0, 0x00a080, 7, false, true},
+    {"pairwise", "openmp", NULL, "pairwise, 1 thread", 1.3, 1, 0x8040c0, 13, false, false},
+    {"frustum", "plain", NULL, "frustum alone, 1 thread", 1.2, 0, 0x000000, 2, false, false},
+    {"embree-depth", "plain", "rays", "Embree, depth buffer, 1 thread", 1.1, 0, 0xc06000, 11, false,
      true},
-    {"embree-rays", "plain", 0, NULL, false, "Embree, rays, 1 thread", 0xc06000, 9, 1.2, false},
-    {"thesis", "plain", 0, "scale", false, "thesis of 2019, at scales", 0xc08000, 3, 1.3, false},
+    {"embree-rays", "plain", NULL, "Embree, rays, 1 thread", 1.2, 0, 0xc06000, 9, false, false},
+    {"thesis", "plain", "scale", "thesis of 2019, at scales", 1.3, 0, 0xc08000, 3, false, false},
 };
 enum { STYLES = sizeof plot_styles / sizeof *plot_styles };
 

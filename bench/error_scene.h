@@ -11,8 +11,8 @@
 typedef struct error_source {
     const char *name; ///< That of its file, without ".obs".
     const char *kind; ///< A generator of scenes.h, or NULL: a model, from a file alone.
-    uint32_t count;
     uint64_t seed;
+    uint32_t count;
     bool is_quick; ///< Small enough for --quick.
 } error_source;
 
