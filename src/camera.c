@@ -137,16 +137,22 @@ static bool is_ahead(const double *opposite, const double corner[3])
     return height > 1e-6 * (occ_dot_magnitude(opposite, corner) + fabs(opposite[3]));
 }
 
-// The eye is outside of at most one of near and far, since their sum is not negative there.
+// The eye is outside of at most one of near and far, since their sum is not negative there. Where
+// rounding leaves it open which, both may cut, unless it is certain of one.
 static void find_cutter(occ_camera *camera)
 {
-    camera->cutter = OCC_NO_PLANE;
-    for (uint32_t p = OCC_FRUSTUM_PLANES; p-- > OCC_NEAR_PLANE;) {
-        bool exists = camera->planes >> p & 1u;
-        if (exists && (camera->plane[p][3] < 0.0 || (camera->orthographic && p == OCC_NEAR_PLANE)))
-            camera->cutter = p;
-    }
-    camera->has_corners = camera->cutter != OCC_NO_PLANE && (camera->planes & 0xfu) == 0xfu;
+    const uint32_t near = OCC_NEAR_PLANE, far = OCC_NEAR_PLANE + 1;
+    bool may[2];
+    for (uint32_t p = near; p <= far; p++)
+        may[p - near] = (camera->planes >> p & 1u) && camera->plane[p][3] < 0.0;
+    if (camera->orthographic) may[0] = (camera->planes >> near & 1u) != 0;
+    bool both = may[0] && may[1] && !camera->orthographic;
+    if (both && camera->constants.plane[far][3] < 0.0) may[0] = false;
+    if (both && camera->constants.plane[near][3] < 0.0) may[1] = false;
+    camera->cutter = may[0] ? near : may[1] ? far : OCC_NO_PLANE;
+    camera->far_cuts_too = both && may[0] && may[1];
+    camera->has_corners =
+        camera->cutter != OCC_NO_PLANE && !camera->far_cuts_too && (camera->planes & 0xfu) == 0xfu;
     for (int c = 0; c < 4 && camera->has_corners; c++) {
         const double *left = camera->plane[c & 1], *low = camera->plane[2 + (c >> 1)];
         const double *right = camera->plane[!(c & 1)], *high = camera->plane[2 + !(c >> 1)];

@@ -22,6 +22,7 @@ typedef struct occ_camera {
     uint32_t cutter;          // the plane that cuts away what is between it and the eye, moved
                               // inward; or OCC_NO_PLANE. The near plane, unless near and far are
                               // exchanged
+    bool far_cuts_too;        // the eye is so near to both planes that either may be the cutter
     bool has_corners;         // whether all rays of the frustum meet the cutter:
     double near_corner[4][3]; // the part of them in front of it is the hull of these and the eye
     double view_area;         // orthographic: of the view rectangle, in square units; else 0

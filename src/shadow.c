@@ -187,6 +187,15 @@ static bool cut_is_in_front(const solid *s, const occ_camera *camera, const face
     return true;
 }
 
+static bool is_beyond(const solid *s, const double *cutter)
+{
+    double reach = 0.0;
+    for (int k = 0; k < 3; k++)
+        reach += fabs(occ_dot(cutter, s->axis[k]));
+    double size = occ_dot_magnitude(cutter, s->size) + fabs(cutter[3]);
+    return occ_dot(cutter, s->center) + cutter[3] - reach > size * 1e-9;
+}
+
 // The near plane cuts away what lies between it and the eye. The occluder is whole if all of that
 // is in front of one of its visible faces, or if the occluder lies beyond the near plane.
 static bool survives_near(const solid *s, const occ_camera *camera, const face seen[3])
@@ -194,12 +203,8 @@ static bool survives_near(const solid *s, const occ_camera *camera, const face s
     if (camera->cutter == OCC_NO_PLANE) return true;
     for (int k = 0; k < 3 && camera->has_corners; k++)
         if (seen[k].sign && cut_is_in_front(s, camera, &seen[k], k)) return true;
-    const double *cutter = camera->plane[camera->cutter];
-    double reach = 0.0;
-    for (int k = 0; k < 3; k++)
-        reach += fabs(occ_dot(cutter, s->axis[k]));
-    double size = occ_dot_magnitude(cutter, s->size) + fabs(cutter[3]);
-    return occ_dot(cutter, s->center) + cutter[3] - reach > size * 1e-9;
+    return is_beyond(s, camera->plane[camera->cutter]) &&
+           (!camera->far_cuts_too || is_beyond(s, camera->plane[OCC_NEAR_PLANE + 1]));
 }
 
 bool occ_shadow_init(occ_shadow *shadow, const occ_camera *camera, const occ_box *box,

@@ -8,8 +8,9 @@ cd "$(dirname "$0")/.."
 . bench/setup.sh
 need_packages docs/debian-packages.txt
 
-# Debian has PoCL among the packages: a skipped OpenCL test would hide something.
+# Debian has PoCL and llvmpipe among the packages: a skipped test would hide something.
 export OCC_REQUIRE_OPENCL=1
+export OCC_REQUIRE_GL=1
 mkdir -p build
 begin=$(date +%s)
 

@@ -12,10 +12,13 @@ int test_run_suite(Suite *suite);
 // Whether OCC_REQUIRE_OPENCL=1 or CI is set.
 bool test_must_have_device(void);
 
-// 0 if an OpenCL device is present; otherwise says so and returns what main is to return: 77, which
-// ctest counts as skipped, or 1 where OCC_REQUIRE_OPENCL=1 or CI is set and a skip would hide that
-// nothing was tested. The look happens in a process of its own: an OpenCL driver that has started
-// its threads does not survive the fork that Check makes for every test.
+// 0 if present() holds; otherwise says that there is no such thing and returns what main is to
+// return: 77, which ctest counts as skipped, or 1 where the variable or CI is set to 1 and a skip
+// would hide that nothing was tested. The look happens in a process of its own: a driver that has
+// started its threads does not survive the fork that Check makes for every test.
+int test_skip_unless(bool (*present)(void), const char *what, const char *variable);
+
+// The same for an OpenCL device, with OCC_REQUIRE_OPENCL.
 int test_skip_without_device(void);
 
 #endif

@@ -7,6 +7,7 @@
 #include "families.h"
 #include "trial.h"
 
+#include "kit.h"
 #include "support.h"
 
 #include <gmp.h>
@@ -398,6 +399,16 @@ START_TEST(marks_hold_far_from_the_origin)
 }
 END_TEST
 
+static bool same_worlds(const family_world *a, const family_world *b)
+{
+    return a->object_count == b->object_count && a->occluder_count == b->occluder_count &&
+           a->camera.depth == b->camera.depth &&
+           kit_same_bits(a->camera.view_projection, b->camera.view_projection, 64) &&
+           kit_same_bits(a->eye, b->eye, sizeof a->eye) &&
+           kit_same_bits(a->objects, b->objects, sizeof a->objects) &&
+           kit_same_bits(a->occluders, b->occluders, sizeof a->occluders);
+}
+
 START_TEST(the_same_place_gives_the_same_world_and_another_seed_another)
 {
     for (const family *f = families; f->name; f++) {
@@ -407,12 +418,10 @@ START_TEST(the_same_place_gives_the_same_world_and_another_seed_another)
         memset(&b, 0x55, sizeof b);
         f->make(&a, &place);
         f->make(&b, &place);
-        a.camera.eye = b.camera.eye = a.camera.origin = b.camera.origin = NULL;
-        ck_assert_msg(memcmp(&a, &b, sizeof a) == 0, "%s", f->name);
+        ck_assert_msg(same_worlds(&a, &b), "%s", f->name);
         place.seed++;
         f->make(&b, &place);
-        b.camera.eye = b.camera.origin = NULL;
-        ck_assert_msg(memcmp(&a, &b, sizeof a) != 0, "%s", f->name);
+        ck_assert_msg(!same_worlds(&a, &b), "%s", f->name);
     }
 }
 END_TEST

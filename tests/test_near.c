@@ -104,6 +104,54 @@ START_TEST(an_immensely_wide_view_is_cut_by_its_near_plane_too)
 }
 END_TEST
 
+// Columns of a matrix whose float lost its near plane: the far plane is x = 0, or 8 x + z = 0, by
+// an ulp of a row, and the near plane is nearly that of the viewer. The eye is at (x, 4096, -8192).
+static occ_camera_desc camera_that_lost_its_near_plane(float x, float slope)
+{
+    const float ulp = 0x1p-24f;
+    return (occ_camera_desc){
+        .view_projection = {1, 0, -slope * ulp, 0, 0, 1, 0, 0, 0, 0, slope == 1 ? 1 : 1 - ulp, 1,
+                            -x, -4096, 8192, 8192},
+        .depth = OCC_DEPTH_ZERO_TO_ONE,
+    };
+}
+
+static occ_box at_lost(float x, float ahead_of_eye, float half)
+{
+    return (occ_box){{x, 4096, ahead_of_eye - 8192}, {{half, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
+}
+
+// Rounding leaves open on which side of the near plane the eye is, but beyond the far plane it is
+// for certain: what cuts is that one, at x = 0, and a wall across it is open there.
+START_TEST(an_eye_surely_beyond_the_far_plane_is_not_taken_for_one_before_the_near_plane)
+{
+    occ_camera_desc camera = camera_that_lost_its_near_plane(-0x1p-14f, 1);
+    occ_frame frame = verdict_frame(&camera);
+    occ_box across = at_lost(0, 1, 0.5f), inside = at_lost(0.5f, 1, 0.25f);
+    occ_box next = at_lost(0x1p-16f, 12, 0), aside = at_lost(6, 12, 0.5f);
+    oracle *judge = oracle_of_camera(&camera);
+    const double point[3] = {0x1p-16, 4096, -8180};
+    ck_assert(oracle_holds(judge, point));
+    ck_assert_int_eq(oracle_point(judge, point, &across), ORACLE_SEEN);
+    oracle_free(judge);
+    ck_assert(!verdict_hides(&frame, &across, &next));
+    ck_assert(verdict_hides(&frame, &inside, &aside));
+}
+END_TEST
+
+// Here it may be beyond either: a wall hides if it is inside of both.
+START_TEST(an_eye_that_may_be_beyond_near_or_far_is_taken_for_both)
+{
+    occ_camera_desc camera = camera_that_lost_its_near_plane(1024, 8);
+    occ_frame frame = verdict_frame(&camera);
+    ck_assert(frame.camera.far_cuts_too);
+    occ_box across = at_lost(1024, 1, 0.5f), next = at_lost(1024, 12, 0.125f);
+    ck_assert(!verdict_hides(&frame, &across, &next));
+    occ_box inside = at_lost(1025, 1, 0.25f), aside = at_lost(1036, 12, 0.5f);
+    ck_assert(verdict_hides(&frame, &inside, &aside));
+}
+END_TEST
+
 // As water does it: the near plane is the water's, and steep. To the right of where it meets the
 // ray x = -z / 2 nothing is drawn, so that the pillar is seen through.
 START_TEST(an_oblique_near_plane_cuts_up_to_the_horizon)
@@ -232,6 +280,9 @@ int main(void)
     tcase_add_loop_test(by_hand, the_ground_under_a_camera_hides_a_cellar, 0, LENSES);
     tcase_add_test(by_hand, a_camera_with_near_and_far_exchanged_cuts_all_the_same);
     tcase_add_test(by_hand, an_immensely_wide_view_is_cut_by_its_near_plane_too);
+    tcase_add_test(by_hand,
+                   an_eye_surely_beyond_the_far_plane_is_not_taken_for_one_before_the_near_plane);
+    tcase_add_test(by_hand, an_eye_that_may_be_beyond_near_or_far_is_taken_for_both);
     tcase_add_test(by_hand, an_oblique_near_plane_cuts_up_to_the_horizon);
     suite_add_tcase(suite, by_hand);
     TCase *at_random = tcase_create("at random");

@@ -239,12 +239,12 @@ static void view_rows(const double eye[3], const double target[3], double row[3]
 }
 
 // The same rows in the world, times the turn's factor: exact where the rows are.
-static void carry_rows(const stage *s, double row[3][3], double out[3][3])
+static void carry_rows(const stage *s, double local[3][3], double out[3][3])
 {
     for (int r = 0; r < 3; r++)
         for (int j = 0; j < 3; j++)
-            out[r][j] =
-                s->turn[j][0] * row[r][0] + s->turn[j][1] * row[r][1] + s->turn[j][2] * row[r][2];
+            out[r][j] = s->turn[j][0] * local[r][0] + s->turn[j][1] * local[r][1] +
+                        s->turn[j][2] * local[r][2];
 }
 
 // What a scene file would hold: a rotation, a translation and a projection of their own.

@@ -33,9 +33,9 @@ families=$(wc -l <"$folder/out")
 names=$(awk '{ print $1 }' "$folder/out")
 
 # Every family has a row, and the last line is the sum of the rows.
-status 0 --worlds 28 --csv "$folder/table.csv"
+status 0 --worlds 14 --csv "$folder/table.csv"
 for name in $names; do
-    grep -q "^$name  *28 " "$folder/out" || fail "no row for $name"
+    grep -q "^$name  *14 " "$folder/out" || fail "no row for $name"
 done
 expected="families=$families worlds=$(sum_of 2) verdicts=$(sum_of 3) false_hidden=0 missed=$(sum_of 8)"
 tail -n 1 "$folder/out" | grep -q "^$expected missed_pct=" || fail "the sum is not $expected"
@@ -53,12 +53,12 @@ cmp "$folder/file" "$folder/printed" || fail "file and print differ"
 # Workers and backends change nothing; methods do.
 for arguments in "--threads 1" "--threads 3" "--backend openmp --threads 2"; do
     # shellcheck disable=SC2086
-    status 0 --worlds 28 $arguments
+    status 0 --worlds 14 $arguments
     cmp "$folder/out" "$folder/all" || fail "$arguments has another answer"
 done
-status 0 --worlds 28 --method frustum
+status 0 --worlds 14 --method frustum
 [ "$(sum_of 8)" -eq "$(sum_of 4)" ] || fail "frustum hides something"
-status 0 --worlds 28 --min-area 0.1
+status 0 --worlds 14 --min-area 0.1
 [ "$(sum_of 8)" -gt "$(awk '$2 ~ /^[0-9]+$/ { s += $8 } END { print s }' "$folder/all")" ] ||
     fail "large occluders alone do not miss more"
 
