@@ -24,7 +24,7 @@ static void set_planes(peer_camera *camera)
 
 peer_camera peer_camera_of(const obs_frame *frame)
 {
-    peer_camera camera = {.is_perspective = frame->proj[11] == -1.0f && frame->proj[15] == 0.0f};
+    peer_camera camera = {0};
     obs_view_projection(frame, camera.matrix);
     set_planes(&camera);
     for (int k = 0; k < 3; k++) {
@@ -40,6 +40,10 @@ peer_camera peer_camera_of(const obs_frame *frame)
     camera.near_depth = frame->proj[14] / (frame->proj[10] - 1.0f);
     float far_depth = frame->proj[14] / (frame->proj[10] + 1.0f);
     camera.far_depth = far_depth > camera.near_depth ? far_depth : FLT_MAX;
+    // Embree stops the program over a ray that is not a number or begins behind its origin.
+    camera.is_perspective = frame->proj[11] == -1.0f && frame->proj[15] == 0.0f &&
+                            camera.near_depth > 0 && isfinite(camera.near_depth) &&
+                            isnormal(camera.scale[0]) && isnormal(camera.scale[1]);
     return camera;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "peer_embree.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #ifdef __SSE__
@@ -74,6 +75,16 @@ static void write_vertices(float (*out)[3], const occ_box *box, const int order[
         }
 }
 
+// The high-quality builder cuts triangles, divides by differences of their coordinates and, in
+// Debian's build, stops the program where one is zero: a denormal one is, as Embree computes.
+static bool is_safe_to_cut(float (*vertices)[3], size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            if (vertices[i][k] != 0 && fabsf(vertices[i][k]) < 1e-30f) return false;
+    return true;
+}
+
 static void write_triangles(peer_tree *tree, const obs_scene *scene, float (*vertices)[3],
                             uint32_t (*triangles)[3])
 {
@@ -136,6 +147,8 @@ static bool add_geometry(peer_tree *tree, const obs_scene *scene)
     rtcSetGeometryUserData(geometry, tree->owners);
     if (vertices && triangles) {
         write_triangles(tree, scene, vertices, triangles);
+        if (!is_safe_to_cut(vertices, vertex_count))
+            rtcSetSceneBuildQuality(tree->scene, RTC_BUILD_QUALITY_MEDIUM);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(tree->scene, geometry);
     }
@@ -153,9 +166,7 @@ bool peer_tree_open(peer_tree *tree, const obs_scene *scene, bool with_filters)
     if (with_filters) rtcSetSceneFlags(tree->scene, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     bool good = succeeded(tree, "making Embree's scene") && add_geometry(tree, scene);
     if (good) {
-        unsigned control = peer_float_flush();
         rtcCommitScene(tree->scene);
-        peer_float_restore(control);
         good = succeeded(tree, "building Embree's tree");
     }
     if (!good) peer_tree_close(tree);

@@ -116,6 +116,45 @@ START_TEST(a_wall_hides_what_is_behind_it_and_nothing_else)
 }
 END_TEST
 
+START_TEST(up_is_up)
+{
+    sight s = look(_i % TURNS);
+    occ_box box = box_of(&s, 0, 1, 5, 2, 2, 0.01); // at z = 10 from -2 to 6
+    uint32_t wall = obs_add_object(&s.world, &box);
+    obs_add_occluder(&s.world, &box, wall);
+    uint32_t high = add_object(&s, 0, 4.5, 10, 0.5), low = add_object(&s, 0, -4.5, 10, 0.5);
+    uint32_t mask = shown(&s.world, _i / TURNS, NULL);
+    ck_assert_msg(!(mask & bit(high)), "the wall does not hide");
+    ck_assert_uint_eq(mask, bit(wall) | bit(low));
+    obs_free(&s.world);
+}
+END_TEST
+
+START_TEST(what_lies_in_a_surface_is_shown)
+{
+    sight s = look(_i % TURNS);
+    uint32_t wall = add_wall(&s, -2, 2, 5, 2);
+    occ_box flat = box_of(&s, 0.3, 0.2, 4.99, 0.5, 0.5, 0);
+    uint32_t decal = obs_add_object(&s.world, &flat);
+    ck_assert_uint_eq(shown(&s.world, _i / TURNS, NULL), bit(wall) | bit(decal));
+    obs_free(&s.world);
+}
+END_TEST
+
+// It passes below the eye. Walls stand before its far corners and, behind the camera, before the
+// others.
+START_TEST(an_object_that_reaches_behind_the_camera_is_shown)
+{
+    sight s = look(_i % TURNS);
+    occ_box floor = box_of(&s, 0, -2, 7.5, 2, 1, 12.5);
+    uint32_t object = obs_add_object(&s.world, &floor);
+    add_wall(&s, -3, 3, 6, 3);
+    add_wall(&s, -5, 5, -2, 5);
+    ck_assert_msg(shown(&s.world, _i / TURNS, NULL) & bit(object), "the floor is hidden");
+    obs_free(&s.world);
+}
+END_TEST
+
 START_TEST(an_object_is_not_hidden_by_its_own_occluder)
 {
     sight s = look(_i % TURNS);
@@ -221,6 +260,21 @@ START_TEST(without_perspective_only_the_frustum_decides)
     ck_assert_uint_eq(mask, bit(wall) | bit(behind));
     ck_assert_uint_eq(mask & bit(outside), 0);
     obs_free(&s.world);
+}
+END_TEST
+
+START_TEST(denormal_boxes_do_no_harm)
+{
+    obs_scene world;
+    ck_assert(scenes_make("city", 200, 13, &world));
+    for (uint32_t i = 0; i < world.occluder_count; i++)
+        for (int k = 0; k < 12; k++) {
+            float *number = k < 3 ? &world.occluders[i].box.center[k]
+                                  : &world.occluders[i].box.axis[k / 3 - 1][k % 3];
+            *number *= 1e-40f;
+        }
+    free(masks_of(&world, _i, NULL));
+    obs_free(&world);
 }
 END_TEST
 
@@ -338,7 +392,11 @@ int main(void)
                         0, VIEWS);
     tcase_add_loop_test(small, a_projection_off_its_center_is_followed, 0, VIEWS);
     tcase_add_loop_test(small, without_perspective_only_the_frustum_decides, 0, VIEWS);
+    tcase_add_loop_test(small, denormal_boxes_do_no_harm, 0, PEERS);
     tcase_add_loop_test(small, denormal_numbers_are_numbers_again_afterwards, 0, PEERS);
+    tcase_add_loop_test(small, up_is_up, 0, VIEWS);
+    tcase_add_loop_test(small, what_lies_in_a_surface_is_shown, 0, VIEWS);
+    tcase_add_loop_test(small, an_object_that_reaches_behind_the_camera_is_shown, 0, VIEWS);
     suite_add_tcase(suite, small);
 
     TCase *scenes = tcase_create("scenes");
