@@ -10,7 +10,7 @@
 
 // So many candidates are tried first. Most objects that are hidden are hidden by these, and no
 // further occluder changes that.
-enum { FIRST_TRIED = 24, THEN_TIMES = 6 };
+enum { FIRST_TRIED = SETTLE_BEST, THEN_TIMES = 6 };
 
 struct settle {
     const obs_scene *scene;

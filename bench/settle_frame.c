@@ -124,33 +124,64 @@ static double find_least_depth(const truth_view *view)
     return is_nearest && least > 0x1p-20 * size ? 0.25 * least : 0.0;
 }
 
-static int compare_depth(const void *a, const void *b)
+// A Morton code of 2 x 8 bits (G. M. Morton, 1966), of what is in the viewport.
+static uint32_t find_place(const settle_extent *extent)
+{
+    uint32_t place = 0, at[2];
+    for (int i = 0; i < 2; i++) {
+        double middle = 0.5 * (fmax(extent->low[i], -1.0) + fmin(extent->high[i], 1.0));
+        at[i] = (uint32_t)(127.5 * (middle + 1.0));
+    }
+    for (int bit = 0; bit < 8; bit++)
+        place |= (at[0] >> bit & 1u) << 2 * bit | (at[1] >> bit & 1u) << (2 * bit + 1);
+    return place;
+}
+
+static int compare_place(const void *a, const void *b)
 {
     const settle_extent *x = a, *y = b;
-    return (x->low[2] > y->low[2]) - (x->low[2] < y->low[2]);
+    return (x->place > y->place) - (x->place < y->place);
+}
+
+static void bound_runs(settle_frame *frame)
+{
+    for (uint32_t e = 0; e < frame->count; e++) {
+        settle_extent *run = &frame->runs[e / SETTLE_RUN];
+        const settle_extent *extent = &frame->extents[e];
+        if (e % SETTLE_RUN == 0) *run = *extent;
+        for (int i = 0; i < 3; i++) {
+            run->low[i] = fmin(run->low[i], extent->low[i]);
+            run->high[i] = fmax(run->high[i], extent->high[i]);
+        }
+    }
 }
 
 const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint32_t index)
 {
+    size_t occluders = scene->occluder_count;
     *frame = (settle_frame){.scene = scene};
     if (!truth_view_make(&frame->view, &scene->frames[index], 1, 1))
         return "its camera has no eye or no direction of view";
     frame->least_depth = find_least_depth(&frame->view);
-    frame->extents = malloc(((size_t)scene->occluder_count + 1) * sizeof *frame->extents);
-    if (!frame->extents) return "not enough memory";
+    frame->extents = malloc((occluders + 1) * sizeof *frame->extents);
+    frame->runs = malloc((occluders / SETTLE_RUN + 1) * sizeof *frame->runs);
+    if (!frame->extents || !frame->runs) return "not enough memory";
     for (uint32_t i = 0; i < scene->occluder_count; i++) {
         settle_extent *extent = &frame->extents[frame->count];
         if (!find_extent(frame, &scene->occluders[i].box, extent)) continue;
         extent->occluder = i;
+        extent->place = find_place(extent);
         frame->count++;
     }
-    qsort(frame->extents, frame->count, sizeof *frame->extents, compare_depth);
+    qsort(frame->extents, frame->count, sizeof *frame->extents, compare_place);
+    bound_runs(frame);
     return NULL;
 }
 
 void settle_frame_free(settle_frame *frame)
 {
     free(frame->extents);
+    free(frame->runs);
     *frame = (settle_frame){0};
 }
 
@@ -164,11 +195,35 @@ static double cover(const settle_extent *a, const settle_extent *b, int i)
     return whole > 0.0 ? common / whole : 1.0;
 }
 
-static int compare_cover(const void *a, const void *b)
+static bool is_better(const settle_candidate *a, const settle_candidate *b)
 {
-    const settle_candidate *x = a, *y = b;
-    if (x->cover != y->cover) return x->cover < y->cover ? 1 : -1;
-    return (x->occluder > y->occluder) - (x->occluder < y->occluder);
+    return a->cover > b->cover || (a->cover == b->cover && a->occluder < b->occluder);
+}
+
+static void swap(settle_candidate *a, settle_candidate *b)
+{
+    settle_candidate kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+// Brings the best to the front, in order.
+static void rank(settle_candidate *list, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++) {
+        uint32_t at = i < SETTLE_BEST ? i : SETTLE_BEST - 1;
+        if (at < i && is_better(&list[i], &list[at])) swap(&list[i], &list[at]);
+        for (; at > 0 && is_better(&list[at], &list[at - 1]); at--)
+            swap(&list[at], &list[at - 1]);
+    }
+}
+
+// Whether a box, or some of a run, can be before the object and over it.
+static bool can_cover(const settle_extent *other, const settle_extent *object)
+{
+    return other->low[2] <= object->high[2] && other->low[X] <= object->high[X] &&
+           other->high[X] >= object->low[X] && other->low[Y] <= object->high[Y] &&
+           other->high[Y] >= object->low[Y];
 }
 
 uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_candidate *list)
@@ -182,14 +237,13 @@ uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_
     }
     for (uint32_t e = 0; e < frame->count; e++) {
         const settle_extent *other = &frame->extents[e];
-        if (other->low[2] > extent.high[2]) break;
-        if (other->low[X] > extent.high[X] || other->high[X] < extent.low[X] ||
-            other->low[Y] > extent.high[Y] || other->high[Y] < extent.low[Y] ||
-            frame->scene->occluders[other->occluder].owner == object)
-            continue;
-        list[found++] = (settle_candidate){cover(other, &extent, X) * cover(other, &extent, Y),
-                                           other->occluder};
+        if (e % SETTLE_RUN == 0 && !can_cover(&frame->runs[e / SETTLE_RUN], &extent))
+            e += SETTLE_RUN - 1;
+        else if (can_cover(other, &extent) &&
+                 frame->scene->occluders[other->occluder].owner != object)
+            list[found++] = (settle_candidate){cover(other, &extent, X) * cover(other, &extent, Y),
+                                               other->occluder};
     }
-    qsort(list, found, sizeof *list, compare_cover);
+    rank(list, found);
     return found;
 }

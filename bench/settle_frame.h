@@ -13,6 +13,7 @@
 typedef struct settle_extent {
     double low[3], high[3];
     uint32_t occluder; ///< Whose extent it is.
+    uint32_t place;    ///< Where its middle is in the viewport, near places having near numbers.
 } settle_extent;
 
 /// An occluder, and how much of an object it may cover, 0 to 1.
@@ -27,17 +28,24 @@ typedef struct settle_frame {
     const obs_scene *scene;
     truth_view view;
     double least_depth;     ///< Surely less than that of any point in the frustum; 0: unknown.
-    settle_extent *extents; ///< Nearest first.
+    settle_extent *extents; ///< By place.
+    settle_extent *runs;    ///< For each SETTLE_RUN extents what holds them all.
     uint32_t count;
 } settle_frame;
+
+enum { SETTLE_RUN = 32 };
 
 /// NULL, or why there is none. The scene must outlive the frame.
 const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint32_t index);
 
 void settle_frame_free(settle_frame *frame);
 
+/// How many candidates settle_frame_select() puts in order.
+enum { SETTLE_BEST = 24 };
+
 /// Lists the other objects' occluders that can hide some of what the frustum holds of an object,
-/// those first that may cover most of it, and returns how many. `list` has room for `frame->count`.
+/// first the SETTLE_BEST that may cover most of it, and returns how many. `list` has room for
+/// `frame->count`.
 /// None of the others meets, beyond the near plane, a segment from the eye to a point of the object
 /// in the frustum: what is seen of it does not depend on them.
 uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_candidate *list);

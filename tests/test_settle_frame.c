@@ -142,7 +142,8 @@ static void choose_for(court *c, uint32_t object, tally *sum)
     for (uint32_t i = 0; i < count; i++) {
         const obs_occluder *occluder = &c->scene->occluders[c->list[i].occluder];
         ck_assert_uint_ne(occluder->owner, object);
-        ck_assert(i == 0 || c->list[i].cover <= c->list[i - 1].cover);
+        uint32_t before = i < SETTLE_BEST ? i : SETTLE_BEST;
+        ck_assert(i == 0 || c->list[i].cover <= c->list[before - 1].cover);
         c->boxes[i] = occluder->box;
     }
     judge_set_occluders(c->some, c->boxes, NULL, count);
@@ -207,12 +208,81 @@ START_TEST(named_scenes_have_few_candidates_and_the_same_verdicts)
 }
 END_TEST
 
+enum { TILES = 48 };
+
+// Where [middle - half, middle + half] is in a view of 90 degrees, from one depth to another.
+static void find_interval(float middle, float half, float near_z, float far_z, double out[2])
+{
+    double low = (double)middle - (double)half, high = (double)middle + (double)half;
+    out[0] = fmin(low / (double)near_z, low / (double)far_z);
+    out[1] = fmax(high / (double)near_z, high / (double)far_z);
+}
+
+// Object 0 is behind a wall of tiles: those before it are candidates, each once, and few others.
+static void check_tiles(const settle_frame *frame, settle_candidate *list)
+{
+    const obs_scene *scene = frame->scene;
+    const occ_box *object = &scene->objects[0];
+    uint8_t listed[TILES * TILES] = {0};
+    double seen[2][2], tile[2][2];
+    uint32_t before = 0, count = settle_frame_select(frame, 0, list);
+    for (int i = 0; i < 2; i++)
+        find_interval(object->center[i], object->axis[i][i], 4, 6, seen[i]);
+    for (uint32_t i = 0; i < count; i++)
+        listed[list[i].occluder]++;
+    for (uint32_t i = 0; i < TILES * TILES; i++) {
+        const occ_box *box = &scene->occluders[i].box;
+        bool overlaps = true;
+        for (int k = 0; k < 2; k++) {
+            find_interval(box->center[k], box->axis[k][k], 3, 3, tile[k]);
+            overlaps = overlaps && tile[k][0] < seen[k][1] && tile[k][1] > seen[k][0];
+        }
+        KIT_CHECK(listed[i] <= 1 && listed[i] >= overlaps, "tile %u is listed %u times", i,
+                  listed[i]);
+        before += overlaps;
+    }
+    ck_assert_uint_gt(before, 0);
+    ck_assert_uint_le(count, before + 8 * TILES);
+}
+
+START_TEST(every_occluder_before_the_object_is_a_candidate)
+{
+    static const double eye[3] = {0, 0, 0}, direction[3] = {0, 0, -1};
+    static settle_candidate list[TILES * TILES];
+    kit_random random = {11};
+    obs_scene scene = {0};
+    obs_frame from = obs_look(eye, direction, 1, 1, 0.125, 100);
+    settle_frame frame;
+    occ_box object = kit_cube(0, 0, -5, 1), owner = kit_cube(0, 0, 90, 1);
+    obs_add_frame(&scene, &from);
+    obs_add_object(&scene, &object);
+    obs_add_object(&scene, &owner);
+    for (int i = 0; i < TILES * TILES; i++) {
+        int column = i % TILES, row = i / TILES;
+        float x = (float)column - 23.5f, y = (float)row - 23.5f;
+        const occ_box tile = {{x / 8, y / 8, -3}, {{0.0625f, 0, 0}, {0, 0.0625f, 0}, {0, 0, 0}}};
+        obs_add_occluder(&scene, &tile, 1);
+    }
+    ck_assert_ptr_null(settle_frame_make(&frame, &scene, 0));
+    for (int i = 0; i < 300; i++) {
+        for (int k = 0; k < 2; k++) {
+            scene.objects[0].center[k] = kit_between(&random, -3, 3);
+            scene.objects[0].axis[k][k] = kit_between(&random, 0.001f, 0.7f);
+        }
+        check_tiles(&frame, list);
+    }
+    settle_frame_free(&frame);
+    obs_free(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("settle_frame");
     TCase *choice = tcase_create("choice");
     tcase_add_loop_test(choice, occluders_left_out_change_no_verdict, 0, KINDS);
     tcase_add_loop_test(choice, named_scenes_have_few_candidates_and_the_same_verdicts, 0, 5);
+    tcase_add_test(choice, every_occluder_before_the_object_is_a_candidate);
     suite_add_tcase(suite, choice);
     return test_run_suite(suite);
 }
