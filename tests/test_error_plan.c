@@ -111,29 +111,73 @@ START_TEST(settings_have_names_of_their_own)
 }
 END_TEST
 
-// The report states all knobs, so the defaults must be what the library takes them to be.
+// What a cull did is told by its statistics: equal knobs, equal figures.
+static bool does_the_same(const occ_view_stats *a, const occ_view_stats *b)
+{
+    return a->visible == b->visible && a->tested == b->tested && a->ranges == b->ranges &&
+           a->nodes_tested == b->nodes_tested && a->occluders_tested == b->occluders_tested &&
+           a->occluders_used == b->occluders_used;
+}
+
+static occ_view_stats cull(occ_view *view, const occ_scene *scene, const obs_frame *frame,
+                           const occ_cull_desc *knobs)
+{
+    double eye[3];
+    occ_camera_desc camera = kit_obs_camera(frame, eye);
+    occ_view_stats stats;
+    ck_assert_int_eq(occ_cull(view, scene, &camera, knobs), OCC_SUCCESS);
+    ck_assert_int_eq(occ_view_get_stats(view, &stats), OCC_SUCCESS);
+    return stats;
+}
+
+// The knobs of a comparison: all of them stated, one left to the library, and that one altered.
+typedef struct knob_trial {
+    occ_cull_desc stated, implied, altered;
+} knob_trial;
+
+static knob_trial try_knob(int knob)
+{
+    knob_trial trial = {error_default_knobs, error_default_knobs, error_default_knobs};
+    switch (knob) {
+    case 0:
+        trial.implied.min_area = 0;
+        trial.altered.min_area *= 1.25f;
+        break;
+    case 1: // more than so many occluders must be worth using
+        trial.stated.min_area = trial.implied.min_area = trial.altered.min_area = 1e-7f;
+        trial.implied.max_occluders = 0;
+        trial.altered.max_occluders -= 24;
+        break;
+    default:
+        trial.implied.grain = 0;
+        trial.altered.grain /= 2;
+    }
+    return trial;
+}
+
+// The report states all knobs, so the defaults must be what the library takes them to be: and each
+// of them, were it another, would show.
 START_TEST(stated_defaults_are_the_librarys)
 {
-    obs_scene file;
-    ck_assert(scenes_make("soup", 3000, 4, &file));
-    occ_scene *scene = kit_obs_scene(&file, NULL, NULL, NULL);
+    const occ_scene_desc fine = {.leaf_objects = 4};
     const occ_view_desc plain = {.backend = OCC_BACKEND_PLAIN};
+    obs_scene file;
     occ_view *view;
-    occ_view_stats ours, theirs;
+    ck_assert(scenes_make("soup", 20000, 4, &file));
+    occ_scene *scene = kit_obs_scene(&file, &fine, NULL, NULL);
     ck_assert_int_eq(occ_view_create(&plain, &view), OCC_SUCCESS);
-    for (uint32_t frame = 0; frame < file.frame_count; frame += 10) {
-        double eye[3];
-        occ_camera_desc camera = kit_obs_camera(&file.frames[frame], eye);
-        ck_assert_int_eq(occ_cull(view, scene, &camera, &error_default_knobs), OCC_SUCCESS);
-        ck_assert_int_eq(occ_view_get_stats(view, &ours), OCC_SUCCESS);
-        ck_assert_int_eq(occ_cull(view, scene, &camera, NULL), OCC_SUCCESS);
-        ck_assert_int_eq(occ_view_get_stats(view, &theirs), OCC_SUCCESS);
-        ck_assert_uint_eq(ours.visible, theirs.visible);
-        ck_assert_uint_eq(ours.tested, theirs.tested);
-        ck_assert_uint_eq(ours.ranges, theirs.ranges);
-        ck_assert_uint_eq(ours.nodes_tested, theirs.nodes_tested);
-        ck_assert_uint_eq(ours.occluders_tested, theirs.occluders_tested);
-        ck_assert_uint_eq(ours.occluders_used, theirs.occluders_used);
+    for (int k = 0; k < 3; k++) {
+        const knob_trial trial = try_knob(k);
+        uint32_t differences = 0;
+        for (uint32_t f = 0; f < file.frame_count; f += 10) {
+            const obs_frame *frame = &file.frames[f];
+            occ_view_stats ours = cull(view, scene, frame, &trial.stated);
+            occ_view_stats theirs = cull(view, scene, frame, &trial.implied);
+            occ_view_stats other = cull(view, scene, frame, &trial.altered);
+            ck_assert_msg(does_the_same(&ours, &theirs), "knob %d is another", k);
+            differences += !does_the_same(&ours, &other);
+        }
+        ck_assert_msg(differences > 0, "knob %d does not show", k);
     }
     occ_view_destroy(view);
     occ_scene_destroy(scene);
