@@ -77,26 +77,40 @@ static void put_families(FILE *stream, const error_table *table, size_t families
     fputs(")\n", stream);
 }
 
+// A panel of its own, across the whole width: the others are too narrow for it.
+static void put_legend(FILE *stream, double height)
+{
+    fprintf(stream,
+            "set lmargin at screen 0.02\nset rmargin at screen 0.98\n"
+            "set tmargin at screen 1\nset bmargin at screen %.4f\n"
+            "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n"
+            "set key center center horizontal maxcols 4 Left reverse width 2 samplen 1\nplot -1 "
+            "notitle",
+            1 - 55 / height);
+    for (int s = 0; s < STYLES; s++) {
+        fprintf(stream,
+                ", keyentry with points pointtype %d pointsize 1 linewidth 1.5 linecolor rgb "
+                "'#%06x' title ",
+                hard_styles[s].shape, hard_styles[s].color);
+        plot_quote(stream, hard_styles[s].title);
+    }
+    fputs("\nset border\nset key off\n", stream);
+}
+
 // Points of one family are spread a little over its line, so that none hides another.
-static void put_panel(FILE *stream, int column, double left, double right, const char *label,
-                      bool has_key)
+static void put_panel(FILE *stream, int column, double left, double right, const char *label)
 {
     fprintf(stream, "set lmargin at screen %.3f\nset rmargin at screen %.3f\nset xlabel ", left,
             right);
     plot_quote(stream, label);
-    fprintf(
-        stream, "\nset key %s\n",
-        has_key
-            ? "at screen 0.5,0.995 center top horizontal maxcols 4 Left reverse width 2 samplen 1"
-            : "off");
+    fputc('\n', stream);
     for (int s = 0; s < STYLES; s++) {
         double shift = 0.08 * ((STYLES - 1) / 2.0 - s);
         fprintf(stream,
                 "%s $style%d using %d:($3%+.2f) with points pointtype %d pointsize 1 linewidth 1.5 "
-                "linecolor rgb '#%06x' title ",
+                "linecolor rgb '#%06x'",
                 s == 0 ? "plot" : ",", s, column, shift, hard_styles[s].shape,
                 hard_styles[s].color);
-        plot_quote(stream, hard_styles[s].title);
     }
     fputc('\n', stream);
 }
@@ -108,19 +122,20 @@ static void put_hard(FILE *stream, const char *path, const void *data)
     double height = (double)(families * ROW_HEIGHT + MARGINS);
     for (int s = 0; s < STYLES; s++)
         put_style(stream, table, s, families);
-    fprintf(stream,
-            "set terminal pngcairo size 900,%.0f noenhanced font 'sans,10'\n"
-            "set grid xtics ytics linetype 1 linecolor rgb '#e0e0e0'\n"
-            "set xrange [-4:104]\nset yrange [0.3:%.1f]\nset xtics 0,20,100\n"
-            "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset output ",
-            height, (double)families + 0.7, 1 - 60 / height, 50 / height);
+    fprintf(stream, "set terminal pngcairo size 900,%.0f noenhanced font 'sans,10'\nset output ",
+            height);
     plot_quote(stream, path);
     fputs("\nset multiplot\n", stream);
+    put_legend(stream, height);
+    fprintf(stream,
+            "set grid xtics ytics linetype 1 linecolor rgb '#e0e0e0'\n"
+            "set xrange [-4:104]\nset yrange [0.3:%.1f]\nset xtics 0,20,100\n"
+            "set tmargin at screen %.4f\nset bmargin at screen %.4f\n",
+            (double)families + 0.7, 1 - 60 / height, 50 / height);
     put_families(stream, table, families);
-    put_panel(stream, 1, 0.17, 0.57, "hidden objects missed, %", true);
-    fputs("set format y ''\n", stream);
-    fputs("set ytics 1,1\n", stream);
-    put_panel(stream, 2, 0.59, 0.99, "visible objects hidden, %", false);
+    put_panel(stream, 1, 0.17, 0.57, "hidden objects missed, %");
+    fputs("set format y ''\nset ytics 1,1\n", stream);
+    put_panel(stream, 2, 0.59, 0.99, "visible objects hidden, %");
     fputs("unset multiplot\n", stream);
 }
 

@@ -15,13 +15,13 @@ const error_method error_methods[] = {
 
 const occ_cull_desc error_default_knobs = {.min_area = 2e-4f, .max_occluders = 1024, .grain = 64};
 
-// One knob is turned at a time. The first setting is the default one.
+// One knob is turned at a time, in the order in which a curve is drawn.
 static const struct {
     occ_cull_desc knobs;
     bool is_quick;
 } error_settings[] = {
-    {{.min_area = 2e-4f, .max_occluders = 1024, .grain = 64}, true},
     {{.min_area = 2e-5f, .max_occluders = 1024, .grain = 64}, true},
+    {{.min_area = 2e-4f, .max_occluders = 1024, .grain = 64}, true},
     {{.min_area = 2e-3f, .max_occluders = 1024, .grain = 64}, true},
     {{.min_area = 2e-2f, .max_occluders = 1024, .grain = 64}, false},
     {{.min_area = 2e-4f, .max_occluders = 64, .grain = 64}, true},
@@ -32,7 +32,7 @@ static const struct {
 };
 enum { SETTINGS = sizeof error_settings / sizeof *error_settings };
 
-// As the knobs: the first is the default.
+// The first is the default.
 static const struct {
     uint32_t width, height;
     bool is_quick;

@@ -76,12 +76,6 @@ static void add_row(scatter_series *series, const error_row *row)
     scatter_add(series, row->median_ms, compare_missed_percent(&row->sums), count > 0, label);
 }
 
-static int compare_y(const void *a, const void *b)
-{
-    const scatter_point *p = a, *q = b;
-    return (p->y < q->y) - (p->y > q->y);
-}
-
 static void add_style(scatter_series *series, const plot_style *style, const error_row *rows,
                       size_t count)
 {
@@ -92,8 +86,6 @@ static void add_style(scatter_series *series, const plot_style *style, const err
     series->is_joined = style->is_joined;
     for (size_t i = 0; i < count; i++)
         if (is_of_style(&rows[i], style)) add_row(series, &rows[i]);
-    // A curve goes along its setting, which is along the error.
-    if (series->is_joined) qsort(series->points, series->count, sizeof *series->points, compare_y);
 }
 
 static void add_published(scatter_series *series, int style, const error_published *points)
