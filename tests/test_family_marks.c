@@ -7,64 +7,14 @@
 #include "families.h"
 #include "trial.h"
 
+#include "exact_side.h"
 #include "kit.h"
 #include "support.h"
 
-#include <gmp.h>
 #include <math.h>
 #include <string.h>
 
-// --- exact signs ---------------------------------------------------------------------------------
-
-static void set(mpq_t out, double value, double less)
-{
-    mpq_t other;
-    mpq_init(other);
-    mpq_set_d(out, value);
-    mpq_set_d(other, less);
-    mpq_sub(out, out, other);
-    mpq_clear(other);
-}
-
-// u . (v x w), which are all differences of doubles: a[i] - b[i].
-static int volume_sign(double a[3][3], double b[3][3])
-{
-    mpq_t m[3][3], sum, term;
-    mpq_inits(sum, term, NULL);
-    for (int i = 0; i < 9; i++) {
-        mpq_init(m[i / 3][i % 3]);
-        set(m[i / 3][i % 3], a[i / 3][i % 3], b[i / 3][i % 3]);
-    }
-    for (int i = 0; i < 3; i++)
-        for (int odd = 0; odd < 2; odd++) {
-            mpq_mul(term, m[0][i], m[1][(i + 1 + odd) % 3]);
-            mpq_mul(term, term, m[2][(i + 2 - odd) % 3]);
-            if (odd) mpq_neg(term, term);
-            mpq_add(sum, sum, term);
-        }
-    int sign = mpq_sgn(sum);
-    for (int i = 0; i < 9; i++)
-        mpq_clear(m[i / 3][i % 3]);
-    mpq_clears(sum, term, NULL);
-    return sign;
-}
-
-// (The middle of a face is a sum of two floats, which a double holds in these worlds.)
-// On which side of the plane through one of a box's faces a point is: negative is the box's own.
-// Faces without area have none. `end` is 1 or -1.
-static int side_of_face(const occ_box *box, int face, int end, const double point[3])
-{
-    double a[3][3], b[3][3] = {{0}}, inward[3][3], zero[3][3] = {{0}};
-    for (int j = 0; j < 3; j++) {
-        a[0][j] = point[j];
-        b[0][j] = (double)box->center[j] + end * (double)box->axis[face][j];
-        a[1][j] = inward[1][j] = (double)box->axis[(face + 1) % 3][j];
-        a[2][j] = inward[2][j] = (double)box->axis[(face + 2) % 3][j];
-        inward[0][j] = -end * (double)box->axis[face][j];
-    }
-    int own = volume_sign(inward, zero);
-    return volume_sign(a, b) * (own ? -own : 1);
-}
+// --- planes --------------------------------------------------------------------------------------
 
 static bool has_area(const occ_box *box, int face)
 {
@@ -83,8 +33,8 @@ static int planes_through(const occ_box *box, const double point[3])
 {
     int count = 0;
     for (int face = 0; face < 3; face++)
-        count += has_area(box, face) && (side_of_face(box, face, 1, point) == 0 ||
-                                         side_of_face(box, face, -1, point) == 0);
+        count += has_area(box, face) &&
+                 (exact_side(box, face, 1, point) == 0 || exact_side(box, face, -1, point) == 0);
     return count;
 }
 
@@ -92,7 +42,7 @@ static bool holds(const occ_box *box, const double point[3])
 {
     for (int face = 0; face < 3; face++)
         for (int end = -1; end <= 1; end += 2)
-            if (side_of_face(box, face, end, point) > 0) return false;
+            if (exact_side(box, face, end, point) > 0) return false;
     return true;
 }
 
@@ -155,7 +105,7 @@ static int corners_in_face(const occ_box *object, const occ_box *box, int face, 
     for (unsigned corner = 0; corner < 8; corner++) {
         double point[3];
         world_corner(object, corner, point);
-        int side = side_of_face(box, face, end, point);
+        int side = exact_side(box, face, end, point);
         in += side == 0;
         *out += side > 0;
     }
@@ -236,7 +186,7 @@ static bool seam_at_the_eye(const family_world *w)
                     b[i][j] = w->eye[j];
             }
             world_corner(c < 8 ? left : right, c % 8, a[0]);
-            int sign = volume_sign(a, b);
+            int sign = exact_volume(a, b);
             in += sign == 0 && c >= 8;
             if (sign) reaches[c / 8][sign > 0] = true;
         }
@@ -266,7 +216,7 @@ static bool sheet_through_eye(const family_world *w)
             const occ_box *box = &w->occluders[i].box;
             const float *zero = box->axis[face];
             if (zero[0] == 0.0f && zero[1] == 0.0f && zero[2] == 0.0f && has_area(box, face) &&
-                side_of_face(box, face, 1, w->eye) == 0)
+                exact_side(box, face, 1, w->eye) == 0)
                 return true;
         }
     return false;
