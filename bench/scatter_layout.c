@@ -83,7 +83,8 @@ static double overlap(const area *a, const area *b)
 // How bad a place is: what it covers of others, labels above all, and what hangs out of the axes.
 static double penalty(const layout_taken *taken, const area *place)
 {
-    static const area frame = {SCATTER_LEFT, SCATTER_RIGHT, SCATTER_BOTTOM, SCATTER_TOP};
+    static const area frame = {SCATTER_LEFT + 4, SCATTER_RIGHT - 4, SCATTER_BOTTOM + 2,
+                               SCATTER_TOP - 2};
     double whole = (place->right - place->left) * (place->top - place->bottom);
     double sum = 20 * (whole - overlap(place, &frame));
     for (size_t i = 0; i < taken->label_count; i++)
