@@ -4,12 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-// In pixels: half the side of a point, and a label's letters.
+// In pixels: half the side of a point and half a line's width, and a label's letters.
 #define POINT_REACH 5.0
+#define LINE_REACH  2.0
+#define LABEL_GAP   6.0
 #define LETTER      7.0
 #define LINE        13.0
 
-enum { MAX_POINTS = SCATTER_MAX_SERIES * SCATTER_MAX_POINTS };
+enum { MAX_POINTS = 8192 };
 
 // A rectangle of pixels.
 typedef struct area {
@@ -115,20 +117,37 @@ static area find_place(const layout_taken *taken, double x, double y, size_t let
     return best;
 }
 
+static void take(layout_taken *taken, double x, double y, double reach)
+{
+    if (taken->point_count < MAX_POINTS)
+        taken->points[taken->point_count++] = around(x, y, reach, reach);
+}
+
+// The line between two points, as a chain of small squares.
+static void take_line(layout_taken *taken, const scatter_axes *axes, const scatter_point *from,
+                      const scatter_point *to)
+{
+    double x = pixel_x(axes, from->x), y = pixel_y(axes, from->y);
+    double across = pixel_x(axes, to->x) - x, up = pixel_y(axes, to->y) - y;
+    int steps = (int)(hypot(across, up) / (2 * LINE_REACH));
+    for (int i = 1; i < steps; i++)
+        take(taken, x + across * i / steps, y + up * i / steps, LINE_REACH);
+}
+
 static void take_points(layout_taken *taken, const scatter_plot *plot, const scatter_axes *axes)
 {
     for (size_t s = 0; s < plot->count; s++)
-        for (size_t i = 0; i < plot->series[s].count && taken->point_count < MAX_POINTS; i++) {
+        for (size_t i = 0; i < plot->series[s].count; i++) {
             const scatter_point *point = &plot->series[s].points[i];
-            taken->points[taken->point_count++] =
-                around(pixel_x(axes, point->x), pixel_y(axes, point->y), POINT_REACH, POINT_REACH);
+            take(taken, pixel_x(axes, point->x), pixel_y(axes, point->y), POINT_REACH);
+            if (i > 0 && plot->series[s].is_joined) take_line(taken, axes, point - 1, point);
         }
 }
 
 size_t scatter_place_labels(const scatter_plot *plot, const scatter_axes *axes,
                             scatter_label labels[SCATTER_MAX_LABELS])
 {
-    layout_taken taken;
+    static layout_taken taken;
     taken.point_count = taken.label_count = 0;
     take_points(&taken, plot, axes);
     for (size_t s = 0; s < plot->count; s++)
@@ -140,6 +159,8 @@ size_t scatter_place_labels(const scatter_plot *plot, const scatter_axes *axes,
                 find_place(&taken, pixel_x(axes, point->x), pixel_y(axes, point->y), letters);
             labels[taken.label_count] = (scatter_label){point->label, point->is_bad, place.left,
                                                         (place.bottom + place.top) / 2};
+            place.left -= LABEL_GAP; // two numbers side by side must not read as one
+            place.right += LABEL_GAP;
             taken.labels[taken.label_count++] = place;
         }
     return taken.label_count;

@@ -75,8 +75,8 @@ START_TEST(labels_of_a_heap_of_points_keep_apart)
                   labels[i].x + width_of(&labels[i]) <= SCATTER_RIGHT);
         ck_assert(labels[i].y > SCATTER_BOTTOM && labels[i].y < SCATTER_TOP);
         for (size_t k = 0; k < i; k++) {
-            bool is_beside = labels[k].x + width_of(&labels[k]) <= labels[i].x ||
-                             labels[i].x + width_of(&labels[i]) <= labels[k].x;
+            bool is_beside = labels[k].x + width_of(&labels[k]) + 5 <= labels[i].x ||
+                             labels[i].x + width_of(&labels[i]) + 5 <= labels[k].x;
             bool is_above = labels[k].y + 11 <= labels[i].y || labels[i].y + 11 <= labels[k].y;
             ck_assert_msg(is_beside || is_above, "labels %zu and %zu overlap", k, i);
         }
