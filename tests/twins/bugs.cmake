@@ -111,3 +111,29 @@ if(occ_opencl)
     occ_plant(owner_opencl IN kernels/test.cl REPLACE "${own}" BY "" COMPILE kernels)
     occ_caught_by(owner_opencl backend_edges device "opencl on a device: ${decided_otherwise}")
 endif()
+
+# --- small worlds and large scenes ---------------------------------------------------------------
+# What finds such bugs by itself, among random worlds, and what remembers how it found them.
+if(TARGET test_property)
+    foreach(bug IN ITEMS grown no_faces no_near_plane no_low_half)
+        occ_caught_by(${bug} property host "world [0-9]+: object [0-9]+ is [a-z, ]+: [a-z]+, plain")
+    endforeach()
+    occ_caught_by(no_bound property host "world [0-9]+: [a-z]+: the mask is 0x[0-9a-f]+, on OpenMP")
+    occ_caught_by(no_bound regressions host "error_bound_removed.obs")
+    occ_caught_by(grown regressions host "occluder_grown_by_1e-6.obs")
+    occ_caught_by(no_faces regressions host "first_near_face_missing.obs")
+    occ_caught_by(no_low_half regressions host "eye_low_half_dropped.obs")
+    occ_caught_by(owner_scalar regressions host "node_owners_forgotten.obs")
+
+    occ_plant(unmirrored ${in_shadow} REPLACE "(volume < 0.0) != (side > 0.0)" BY "(volume < -1e300) != (side > 0.0)")
+    occ_caught_by(unmirrored property host "world [0-9]+: object [0-9]+ is left out, but seen")
+    occ_caught_by(unmirrored regressions host "mirrored_axes_ignored.obs")
+    occ_caught_by(unmirrored metamorphic judged "pairwise, mirrored, camera [0-3]: object [0-9]+ is")
+
+    set(in_select IN src/select.c COMPILE select.c)
+    occ_plant(area_of_its_own ${in_select} REPLACE "shown >= least * squared * length" BY "shown >= least * 400.0 * length")
+    occ_caught_by(area_of_its_own metamorphic exact "single, scaled, camera [0-3]: object [0-9]+ is")
+    occ_plant(odd_one_out ${in_select} REPLACE "i = 0; i < frame->scene->occluder_order.count"
+        BY "i = frame->scene->occluder_order.count % 2 * 400; i < frame->scene->occluder_order.count")
+    occ_caught_by(odd_one_out metamorphic_edits occluders "one occluder [a-z]+: object [0-9]+ is seen again")
+endif()
