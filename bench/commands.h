@@ -2,7 +2,7 @@
 /// @file
 /// The subcommands of occlude-bench. Each gets its own name as argv[0] and returns the exit status:
 /// 0, 1 when an input could not be used (after a message, with nothing written), 2 on bad usage,
-/// and 3 when `compare` or `hard` found a visible object reported hidden.
+/// and 3 when `compare`, `hard` or `error` found a visible object reported hidden that must not be.
 #ifndef OCC_BENCH_COMMANDS_H
 #define OCC_BENCH_COMMANDS_H
 
@@ -29,5 +29,8 @@ int bench_compare(int argc, char **argv);
 
 /// The families of hard cases, judged exactly.
 int bench_hard(int argc, char **argv);
+
+/// Speed against error, for every method and scene.
+int bench_error(int argc, char **argv);
 
 #endif

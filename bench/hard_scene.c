@@ -32,7 +32,7 @@ static void as_opengl(occ_depth depth, float proj[16])
     }
 }
 
-static obs_frame frame_of(const family_world *world)
+obs_frame hard_scene_frame(const family_world *world)
 {
     obs_frame frame;
     for (int j = 0; j < 3; j++) {
@@ -48,7 +48,7 @@ static obs_frame frame_of(const family_world *world)
 bool hard_scene_write(const char *path, const family_world *world)
 {
     obs_scene scene = {0};
-    obs_frame frame = frame_of(world);
+    obs_frame frame = hard_scene_frame(world);
     uint32_t nobody = UINT32_MAX;
     for (uint32_t i = 0; i < world->object_count; i++)
         obs_add_object(&scene, &world->objects[i]);

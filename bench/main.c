@@ -36,6 +36,9 @@ static const bench_command bench_commands[] = {
     {"hard", "hard [--family F] [--scale S] [--offset O] [--seed N] [--worlds N] [--method M] ...",
      "run the hard cases and judge every answer exactly", "occlude-bench hard --method pairwise",
      bench_hard},
+    {"error", "error [--quick] [--scenes DIR] [--scene NAME] [--out DIR] ...",
+     "speed against error: every method and setting on every scene, as CSV, tables and plots",
+     "occlude-bench error --quick --out error", bench_error},
 };
 enum { COMMANDS = sizeof bench_commands / sizeof *bench_commands };
 
@@ -54,8 +57,8 @@ static void print_usage(FILE *stream)
     }
     fputs(
         "\n`occlude-bench COMMAND --help` tells all of a command's options. Exit status: 0; 1 if\n"
-        "an input cannot be used (nothing is written then); 2 on bad usage; 3 if `compare`\n"
-        "or `hard` finds a visible object reported hidden.\n",
+        "an input cannot be used (nothing is written then); 2 on bad usage; 3 if `compare`,\n"
+        "`hard` or `error` finds a visible object reported hidden that must not be.\n",
         stream);
 }
 

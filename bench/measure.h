@@ -54,6 +54,9 @@ const char *measure_complete(measure_settings *settings);
 /// NULL, or why this method should not be run on this scene: a quadratic one on a large scene.
 const char *measure_warning(const measure_settings *settings, const obs_scene *scene);
 
+/// The library's method of that name. False if it is not one of the library's.
+bool measure_method(const char *name, occ_method *method);
+
 /// Runs. On failure says why on standard error, zeroes `result` and returns false.
 bool measure_run(const measure_settings *settings, const obs_scene *scene, measure_result *result);
 

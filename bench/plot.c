@@ -8,8 +8,15 @@
 #include <string.h>
 #include <unistd.h>
 
+// What plot_logarithmic() draws.
+typedef struct plot_lines {
+    const char *title, *x_label, *y_label;
+    const plot_curve *curves;
+    size_t count;
+} plot_lines;
+
 // In gnuplot a quote within single quotes is doubled.
-static void put_quoted(FILE *stream, const char *text)
+void plot_quote(FILE *stream, const char *text)
 {
     fputc('\'', stream);
     for (; *text; text++) {
@@ -22,49 +29,48 @@ static void put_quoted(FILE *stream, const char *text)
 static void put_command(FILE *stream, const char *command, const char *text)
 {
     fprintf(stream, "%s ", command);
-    put_quoted(stream, text);
+    plot_quote(stream, text);
     fputc('\n', stream);
 }
 
-static void put_script(FILE *stream, const char *path, const char *title, const char *x_label,
-                       const char *y_label, const plot_curve *curves, size_t count)
+static void put_lines(FILE *stream, const char *path, const void *data)
 {
-    for (size_t c = 0; c < count; c++) {
+    const plot_lines *lines = data;
+    for (size_t c = 0; c < lines->count; c++) {
+        const plot_curve *curve = &lines->curves[c];
         fprintf(stream, "$curve%zu << END\n", c);
-        for (size_t i = 0; i < curves[c].count; i++)
-            if (curves[c].y[i] > 0) fprintf(stream, "%.9g %.9g\n", curves[c].x[i], curves[c].y[i]);
+        for (size_t i = 0; i < curve->count; i++)
+            if (curve->y[i] > 0) fprintf(stream, "%.9g %.9g\n", curve->x[i], curve->y[i]);
         fputs("END\n", stream);
     }
     fputs("set terminal pngcairo size 960,640 noenhanced\nset logscale xy\nset grid\n"
           "set key left top\nset format '%.0s%c'\nset format y '%g'\n",
           stream);
     put_command(stream, "set output", path);
-    put_command(stream, "set title", title);
-    put_command(stream, "set xlabel", x_label);
-    put_command(stream, "set ylabel", y_label);
-    for (size_t c = 0; c < count; c++) {
+    put_command(stream, "set title", lines->title);
+    put_command(stream, "set xlabel", lines->x_label);
+    put_command(stream, "set ylabel", lines->y_label);
+    for (size_t c = 0; c < lines->count; c++) {
         fprintf(stream, "%s $curve%zu with linespoints linewidth 2 pointtype 7 title ",
                 c == 0 ? "plot" : ",", c);
-        put_quoted(stream, curves[c].title);
+        plot_quote(stream, lines->curves[c].title);
     }
     fputc('\n', stream);
 }
 
-static bool run_gnuplot(const char *path, const char *title, const char *x_label,
-                        const char *y_label, const plot_curve *curves, size_t count)
+static bool run_gnuplot(const char *path, plot_writer *writer, const void *data)
 {
     // Should gnuplot die, it is its exit status that tells, not a signal to us.
     struct sigaction ignore = {.sa_handler = SIG_IGN}, before;
     sigaction(SIGPIPE, &ignore, &before);
     FILE *stream = popen("gnuplot", "w");
-    if (stream) put_script(stream, path, title, x_label, y_label, curves, count);
+    if (stream) writer(stream, path, data);
     bool good = stream && pclose(stream) == 0;
     sigaction(SIGPIPE, &before, NULL);
     return good;
 }
 
-bool plot_logarithmic(const char *path, const char *title, const char *x_label, const char *y_label,
-                      const plot_curve *curves, size_t count)
+bool plot_run(const char *path, plot_writer *writer, const void *data)
 {
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
         fprintf(stderr, "occlude-bench: %s: no plot: gnuplot is not installed\n", path);
@@ -74,12 +80,18 @@ bool plot_logarithmic(const char *path, const char *title, const char *x_label, 
     char *temporary = malloc(size);
     if (!temporary) return false;
     snprintf(temporary, size, "%s.%ld.part", path, (long)getpid());
-    bool good = run_gnuplot(temporary, title, x_label, y_label, curves, count) &&
-                rename(temporary, path) == 0;
+    bool good = run_gnuplot(temporary, writer, data) && rename(temporary, path) == 0;
     if (!good) {
         remove(temporary);
         fprintf(stderr, "occlude-bench: %s: no plot: gnuplot could not write it\n", path);
     }
     free(temporary);
     return good;
+}
+
+bool plot_logarithmic(const char *path, const char *title, const char *x_label, const char *y_label,
+                      const plot_curve *curves, size_t count)
+{
+    const plot_lines lines = {title, x_label, y_label, curves, count};
+    return plot_run(path, put_lines, &lines);
 }

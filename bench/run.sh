@@ -124,11 +124,17 @@ done
 echo "The thesis's experiment..."
 "$bench" seed --plot "$results/seed.png" --csv "$results/seed.csv" >"$results/seed.txt"
 cat "$results/seed.txt"
+
+echo "Speed against error..."
+"$bench" error --quick --out "$results/error" >"$results/error.txt"
+sed -n '/^scene /,$p' "$results/error.txt"
+
 table city_ >"$results/city.txt"
 table '' >"$results/all.txt"
 echo
 cat "$results/all.txt"
 echo
 echo "On every scene above the masks of plain, openmp${opencl:+, opencl} were compared: the same bits."
-echo "Results are in $results: seed.txt, seed.csv, seed.png, city.txt, all.txt, a CSV for each run, pictures."
+echo "Results are in $results: seed.txt, seed.csv, seed.png, city.txt, all.txt, a CSV for each run, pictures,"
+echo "and error/error.md, tables and plots of speed against error."
 echo "$(($(date +%s) - started)) seconds after the installs."

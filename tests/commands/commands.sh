@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
 # its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
-# settle, settle_absent (a build without GMP), and wrong, which must fail.
+# settle, settle_absent (a build without GMP), error, error_hard, and wrong, which must fail.
 set -u
 program=$1
 work=$(mktemp -d) || exit 1
@@ -151,7 +151,92 @@ settle_absent_group()
     expect 1 err 'built without GMP, which --scene needs' compare city.tru city.vis --scene city.obs
 }
 
+# column NAME: the values of a column of the report, one to a line. Reasons have commas, and go.
+column()
+{
+    sed -e '/^#/d' -e 's/"[^"]*"//' report/error.csv | awk -F, -v name="$1" '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) wanted = i }
+        NR > 1 { print $wanted }'
+}
+
+# rows METHOD SCALE: false-hidden objects of the method at that scale, one run to a line.
+rows()
+{
+    sed -e '/^#/d' -e 's/"[^"]*"//' report/error.csv | awk -F, -v method="$1" -v scale="$2" '
+        NR == 1 { for (i = 1; i <= NF; i++) place[$i] = i }
+        NR > 1 && $place["method"] == method && $place["scale"] == scale && $place["frames"] != "" {
+            print $place["false_hidden_objects"]
+        }'
+}
+
+fast='--quick --repeat 1 --size 512x288'
+
+# What holds for a report of whatever scenes: rows as wide as their head, nothing visible hidden by
+# the library's methods, and much by the thesis's.
+check_report()
+{
+    [ -s report/error.md ] || fail "no report/error.md"
+    sed -e '/^#/d' -e 's/"[^"]*"//' report/error.csv >rows.csv
+    awk -F, 'NR == 1 { wide = NF } NF != wide { exit 1 }' rows.csv || fail "rows of another width"
+    head -n 1 rows.csv | grep -q '^scene,method,backend,threads,min_area_sr,.*,missed_pct,.*,skipped$' ||
+        fail "other columns"
+    for key in cpu compiler flags driver commit peer repeats; do
+        grep -q "^# $key=" report/error.csv || fail "no line # $key="
+    done
+    for method in frustum single pairwise; do
+        [ "$(rows $method 1 | sort -u)" = 0 ] || fail "$method hides what can be seen"
+        [ "$(rows $method 1 | wc -l)" -ge 1 ] || fail "$method was not run"
+    done
+    [ "$(rows single 0.01 | sort -u)" = 0 ] || fail "single at scale 0.01 hides what can be seen"
+    rows thesis 0.01 | awk '{ sum += $1 } END { exit sum > 0 ? 0 : 1 }' ||
+        fail "the thesis's test hides nothing at scale 0.01"
+}
+
+error_group()
+{
+    expect 0 out 'usage: occlude-bench error' error --help
+    expect 2 err '--fast: no such option' error --fast
+    expect 2 err 'one word too many' error city.obs
+    expect 2 err '--repeat is 1000 at most' error --repeat 1001
+    expect 2 err 'expected --size as 4096x2304' error --size 4096
+    for name in '' a/b ../city 'a b'; do
+        expect 2 err "expected a scene's name after --scene, as city_1000" error --scene "$name"
+    done
+    mkdir report
+    expect 1 err 'there is no file nameless.obs and no generator makes it' \
+        error --out report --scene nameless
+    expect 1 err 'cannot make the folder absent/report' error --out absent/report --scene city_1000
+    echo 'no scene' >broken.obs
+    expect 1 err 'expected the magic "OBS1"' error --out report --scenes . --scene broken
+
+    expect 0 out ' objects, ' scene seedscene 60 1 --out tiny.obs
+    expect 0 out ' objects, ' scene interior 50 5 --out rooms.obs
+    expect 0 out 'rooms: ' error --out report --scenes . --scene tiny --scene rooms $fast
+    check_report
+    [ "$(column scene | sort -u | tr '\n' ' ')" = 'rooms tiny ' ] || fail "other scenes"
+    [ "$(ls report/truth | grep -c '^tiny-.*\.tru$')" -eq 3 ] || fail "not a truth for each scale"
+    if command -v gnuplot >/dev/null; then
+        [ -s report/tiny.png ] && [ -s report/rooms.png ] || fail "plots are missing"
+        grep -q '(tiny.png)' report/error.md || fail "report/error.md shows no plot"
+    fi
+    # Truths that are there are taken, and a report over another one.
+    rm report/error.csv
+    expect 0 out 'tiny: ' error --out report --scenes . --scene tiny $fast
+    check_report
+}
+
+error_hard_group()
+{
+    expect 0 out ' objects, ' scene seedscene 60 1 --out tiny.obs
+    expect 0 out 'hard families: ' error --out report --scenes . --scene tiny $fast --hard
+    check_report
+    [ "$(column scene | grep -c '^hard/panels$')" -ge 3 ] || fail "no rows of the hard families"
+    grep -q '^| panels |' report/error.md || fail "no table of the hard families"
+}
+
 case $2 in
+error) error_group ;;
+error_hard) error_hard_group ;;
 truth) truth_group ;;
 compare) compare_group ;;
 settle) settle_group ;;

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "error_scene.h"
+
+#include "scenes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+const error_source error_sources[] = {{"seedscene_500", "seedscene", 1, 500, true},
+                                      {"seedscene_1000", "seedscene", 1, 1000, true},
+                                      {"seedscene_10000", "seedscene", 1, 10000, true},
+                                      {"seedscene_100000", "seedscene", 1, 100000, false},
+                                      {"city_1000", "city", 2, 1000, true},
+                                      {"city_10000", "city", 2, 10000, true},
+                                      {"city_100000", "city", 2, 100000, false},
+                                      {"city_1000000", "city", 2, 1000000, false},
+                                      {"forest_100000", "forest", 3, 100000, false},
+                                      {"soup_100000", "soup", 4, 100000, false},
+                                      {"interior_10000", "interior", 5, 10000, true},
+                                      {"alphacorp", NULL, 0, 0, false},
+                                      {"institute", NULL, 0, 0, false},
+                                      {"sponza", NULL, 0, 0, false},
+                                      {NULL, NULL, 0, 0, false}};
+
+const error_source *error_source_find(const char *name)
+{
+    for (const error_source *source = error_sources; source->name; source++)
+        if (strcmp(source->name, name) == 0) return source;
+    return NULL;
+}
+
+static error_load make(const char *name, obs_scene *scene)
+{
+    const error_source *source = error_source_find(name);
+    if (!source || !source->kind) return ERROR_ABSENT;
+    if (scenes_make(source->kind, source->count, source->seed, scene)) return ERROR_LOADED;
+    fprintf(stderr, "occlude-bench: not enough memory for the scene %s\n", name);
+    return ERROR_FAILED;
+}
+
+error_load error_scene_load(const char *folder, const char *name, obs_scene *scene)
+{
+    *scene = (obs_scene){0};
+    if (!folder) return make(name, scene);
+    size_t size = strlen(folder) + strlen(name) + sizeof "/.obs";
+    char *path = malloc(size);
+    if (!path) return ERROR_FAILED;
+    snprintf(path, size, "%s/%s.obs", folder, name);
+    error_load load;
+    if (access(path, F_OK) == 0)
+        load = obs_read(path, scene) ? ERROR_LOADED : ERROR_FAILED;
+    else
+        load = make(name, scene);
+    free(path);
+    return load;
+}
+
+static float scaled(float value, double factor)
+{
+    return (float)((double)value * factor);
+}
+
+static occ_box scale_box(const occ_box *box, double factor)
+{
+    occ_box result = *box;
+    for (int k = 0; k < 3; k++) {
+        result.center[k] = scaled(box->center[k], factor);
+        for (int a = 0; a < 3; a++)
+            result.axis[a][k] = scaled(box->axis[a][k], factor);
+    }
+    return result;
+}
+
+// A perspective projection's last column is made of lengths (near and far), the rest has no unit.
+// Of an orthographic one the first three columns are one over a length.
+static void scale_projection(float *projection, double factor)
+{
+    bool is_perspective = projection[11] != 0;
+    for (int i = is_perspective ? 12 : 0; i < (is_perspective ? 16 : 12); i++)
+        projection[i] = scaled(projection[i], is_perspective ? factor : 1 / factor);
+}
+
+static obs_frame scale_frame(const obs_frame *frame, double factor)
+{
+    obs_frame result = *frame;
+    for (int k = 0; k < 3; k++) {
+        result.eye[k] = scaled(frame->eye[k], factor);
+        result.view[12 + k] = scaled(frame->view[12 + k], factor);
+    }
+    scale_projection(result.proj, factor);
+    return result;
+}
+
+bool error_scene_scale(const obs_scene *scene, double factor, obs_scene *result)
+{
+    *result = (obs_scene){0};
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        occ_box box = scale_box(&scene->objects[i], factor);
+        obs_add_object(result, &box);
+    }
+    for (uint32_t i = 0; i < scene->occluder_count; i++) {
+        occ_box box = scale_box(&scene->occluders[i].box, factor);
+        obs_add_occluder(result, &box, scene->occluders[i].owner);
+    }
+    for (uint32_t i = 0; i < scene->frame_count; i++) {
+        obs_frame frame = scale_frame(&scene->frames[i], factor);
+        obs_add_frame(result, &frame);
+    }
+    if (!result->out_of_memory) return true;
+    obs_free(result);
+    return false;
+}
+
+bool error_scene_cut(const obs_scene *scene, const uint32_t *frames, uint32_t count,
+                     obs_scene *part)
+{
+    *part = *scene;
+    part->frames = calloc((size_t)count + 1, sizeof *part->frames);
+    if (!part->frames) return false;
+    part->frame_count = part->frame_capacity = count;
+    for (uint32_t i = 0; i < count; i++)
+        part->frames[i] = scene->frames[frames[i]];
+    return true;
+}
+
+static uint64_t add_word(uint64_t hash, uint32_t word)
+{
+    for (int i = 0; i < 4; i++) {
+        hash ^= word >> 8 * i & 0xff;
+        hash *= UINT64_C(0x100000001b3);
+    }
+    return hash;
+}
+
+static uint64_t add_floats(uint64_t hash, const float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t word;
+        memcpy(&word, &values[i], sizeof word);
+        hash = add_word(hash, word);
+    }
+    return hash;
+}
+
+static uint64_t add_box(uint64_t hash, const occ_box *box)
+{
+    hash = add_floats(hash, box->center, 3);
+    for (int k = 0; k < 3; k++)
+        hash = add_floats(hash, box->axis[k], 3);
+    return hash;
+}
+
+uint64_t error_scene_identity(const obs_scene *scene)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    hash = add_word(hash, scene->object_count);
+    hash = add_word(hash, scene->occluder_count);
+    hash = add_word(hash, scene->frame_count);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        hash = add_box(hash, &scene->objects[i]);
+    for (uint32_t i = 0; i < scene->occluder_count; i++)
+        hash = add_word(add_box(hash, &scene->occluders[i].box), scene->occluders[i].owner);
+    for (uint32_t i = 0; i < scene->frame_count; i++) {
+        const obs_frame *frame = &scene->frames[i];
+        hash = add_floats(add_floats(hash, frame->eye, 3), frame->dir, 3);
+        hash = add_floats(add_floats(hash, frame->view, 16), frame->proj, 16);
+    }
+    return hash;
+}
