@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: unit property
-// The mip chain of the peers' depth buffer (bench/peer_pyramid.h), against the buffer alone.
+// The mip chain of the peers' depth buffer (peer_pyramid.h), against the buffer alone.
 #include "kit.h"
 #include "peer_pyramid.h"
 #include "support.h"

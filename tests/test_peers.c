@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: unit
-// The peers on Embree (bench/peer.h): they hide what is plainly hidden and show what is plainly
+// The peers on Embree (peer.h): they hide what is plainly hidden and show what is plainly
 // seen, so that the comparison is fair; and they hide what can be seen in exactly the places where
 // such methods do, so that they are not improved in silence.
 #include "kit_obs.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: unit oracle
-// The checks of the 2019 thesis (bench/thesis.h), restated over identities: which object is in
+// The checks of the 2019 thesis (thesis.h), restated over identities: which object is in
 // which node, which object is hidden. And what its occlusion test gets wrong, as scenes in which it
 // gives the wrong objects while every method of the library gives those of the exact judge.
 #include "kit_obs.h"
