@@ -2,7 +2,7 @@
 // The test of the open ranges. A work-group takes a range and each of its work-items an object,
 // whose corner rays it tests against the visible faces and silhouettes of the range's occluders, as
 // the planes of their shadows (verdict.h). The answers of a range are four words.
-#include "verdict.h"
+#include "fusion.h"
 
 // A row of the box table, relative to the eye.
 inline occ_relative_box relative_row(__global const float *boxes, uint stride, uint row,
@@ -30,6 +30,11 @@ inline uint verdict_of(__global const float *boxes, uint stride, __global const 
         __global const occ_shadow *shadow = &shadows[candidates[c]];
         if (shadow->owner == row) continue;
         if (occ_box_in_shadow(&box, shadow->plane[0], shadow->planes)) return OCC_HIDDEN;
+    }
+    if (range->fused &&
+        occ_box_fused(&box, eye, range->frustum, shadows, candidates + range->candidates,
+                      range->candidate_count, row)) {
+        return OCC_HIDDEN;
     }
     return OCC_VISIBLE;
 }

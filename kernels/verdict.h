@@ -23,8 +23,10 @@ typedef struct occ_eye {
     float high[4]; // the eye is high + low
     float low[4];
     float plane[OCC_FRUSTUM_PLANES][4]; // the frustum's, relative to the eye
+    float toward[4];                    // orthographic: a direction to the viewer, and 1; else 0
     float slack_floor;
-    occ_u32 pad[3];
+    float doubt; // four times what the eye may be off by
+    occ_u32 pad[2];
 } occ_eye;
 
 // A run of at most 64 objects that the walk left open.
@@ -34,7 +36,7 @@ typedef struct occ_range {
     occ_u32 candidates; // where its list of shadows begins
     occ_u32 candidate_count;
     occ_u32 frustum; // bit p: plane p of the frustum may cut the range
-    occ_u32 pad;
+    occ_u32 fused;   // whether candidates may hide an object together
 } occ_range;
 
 #define OCC_RANGE_OBJECTS 64u

@@ -3,6 +3,7 @@
 #include "backend.h"
 
 #include "box.h"
+#include "fusion.h"
 
 static uint32_t verdict_of(const occ_test_job *job, const occ_range *range, uint32_t row)
 {
@@ -14,6 +15,11 @@ static uint32_t verdict_of(const occ_test_job *job, const occ_range *range, uint
         const occ_shadow *shadow = &job->shadows[job->candidates[range->candidates + c]];
         if (shadow->owner == row) continue;
         if (occ_box_in_shadow(&relative, shadow->plane[0], shadow->planes)) return OCC_HIDDEN;
+    }
+    if (range->fused &&
+        occ_box_fused(&relative, eye, range->frustum, job->shadows,
+                      job->candidates + range->candidates, range->candidate_count, row)) {
+        return OCC_HIDDEN;
     }
     return OCC_VISIBLE;
 }

@@ -184,6 +184,14 @@ static void set_constants(occ_camera *camera)
         camera->constants.low[j] = (float)(camera->eye[j] - (double)high);
         reach += fabs(camera->eye[j]);
     }
+    double doubt = 0.0, length = sqrt(occ_dot(camera->toward, camera->toward));
+    for (int j = 0; j < 3; j++) {
+        doubt = fmax(doubt, camera->doubt[j]);
+        if (camera->orthographic)
+            camera->constants.toward[j] = occ_nearest(camera->toward[j] / length);
+    }
+    camera->constants.toward[3] = camera->orthographic ? 1.0f : 0.0f;
+    camera->constants.doubt = occ_round_up(doubt * 0x1p-48);
     camera->constants.slack_floor = occ_round_up(reach * 0x1p-46 + 0x1p-80);
 }
 

@@ -6,6 +6,9 @@
 
 #include "lanes.h"
 
+#include "box.h"
+#include "fusion.h"
+
 #ifndef OCC_LANES_NAME
 #define OCC_LANES_NAME plain
 #endif
@@ -223,6 +226,21 @@ static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *sh
     return open;
 }
 
+static uint32_t fuse(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
+                     const occ_candidates *candidates, uint32_t row, uint32_t open)
+{
+    uint32_t left = open;
+    for (uint32_t l = 0; l < OCC_WIDTH; l++) {
+        if (!(open >> l & 1u)) continue;
+        const occ_box box = occ_boxes_get(boxes, row + l);
+        occ_relative_box relative = occ_box_relative(&box, eye);
+        if (occ_box_fused(&relative, eye, range->frustum, candidates->shadows, candidates->list,
+                          candidates->count, row + l))
+            left &= ~(1u << l);
+    }
+    return left;
+}
+
 static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
                         const occ_candidates *candidates)
 {
@@ -241,6 +259,7 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
             if (own < OCC_WIDTH) hidden &= ~(1u << own);
             open &= ~hidden;
         }
+        if (range->fused) open = fuse(boxes, range, eye, candidates, row, open);
         verdict.visible[i / 32] |= open << i % 32;
         verdict.outside[i / 32] |= outside << i % 32;
     }

@@ -236,7 +236,7 @@ occ_result occ_select(occ_frame *frame)
     occ_result result = OCC_SUCCESS;
     if (frame->knobs.method == OCC_METHOD_PAIRWISE) {
         result = select_all(frame);
-    } else if (frame->knobs.method == OCC_METHOD_SINGLE && frame->scene->occluder_order.count) {
+    } else if (frame->knobs.method != OCC_METHOD_FRUSTUM && frame->scene->occluder_order.count) {
         occ_siblings root = {.nodes = occ_octree_nodes(&frame->scene->occluder_tree),
                              .count = 1,
                              .frustum = frame->camera.planes};

@@ -86,7 +86,7 @@ static occ_result set_knobs(occ_view *view, const occ_cull_desc *desc)
     occ_cull_desc *knobs = &view->frame.knobs;
     *knobs = (occ_cull_desc){.method = OCC_METHOD_SINGLE};
     if (desc) *knobs = *desc;
-    if ((unsigned)knobs->method > OCC_METHOD_PAIRWISE) {
+    if ((unsigned)knobs->method > OCC_METHOD_FUSED) {
         return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no method %d",
                         (int)knobs->method);
     }

@@ -27,7 +27,8 @@ static occ_result leave_open(occ_frame *frame, uint32_t first, uint32_t count, u
         occ_range *range = occ_array_push(frame->hooks, &frame->ranges);
         if (!range) return OCC_ERROR_OUT_OF_MEMORY;
         uint32_t left = count - i < OCC_RANGE_OBJECTS ? count - i : OCC_RANGE_OBJECTS;
-        *range = (occ_range){first + i, left, begin, listed, planes, 0};
+        *range = (occ_range){first + i, left,   begin,
+                             listed,    planes, frame->knobs.method == OCC_METHOD_FUSED};
     }
     return OCC_SUCCESS;
 }

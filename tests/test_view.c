@@ -370,7 +370,7 @@ int main(void)
     suite_add_tcase(suite, results);
     TCase *stats = with_fixture(tcase_create("stats"));
     tcase_add_loop_test(stats, stages_add_up_to_all_objects, OCC_METHOD_SINGLE,
-                        OCC_METHOD_PAIRWISE + 1);
+                        OCC_METHOD_FUSED + 1);
     tcase_add_test(stats, frustum_alone_hides_nothing);
     tcase_add_test(stats, pairs_are_tested_without_a_walk);
     tcase_add_test(stats, no_more_occluders_are_used_than_asked_for);

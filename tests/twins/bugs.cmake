@@ -137,3 +137,20 @@ if(TARGET test_property)
         BY "i = frame->scene->occluder_order.count % 2 * 400; i < frame->scene->occluder_order.count")
     occ_caught_by(odd_one_out metamorphic_edits occluders "one occluder [a-z]+: object [0-9]+ is seen again")
 endif()
+
+# --- what several hide together ------------------------------------------------------------------
+if(TARGET test_fusion)
+    set(fused_too_much "world [0-9]+: object [0-9]+ is hidden, but it can be seen")
+    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "v->e + OCC_VERTEX_SLACK + " BY "-v->e - OCC_VERTEX_SLACK - "
+        COMPILE backend_plain.c)
+    occ_caught_by(fusion_without_bounds fusion random "${fused_too_much}")
+    occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;"
+        BY "(void)by_faces;" COMPILE backend_plain.c)
+    occ_caught_by(fusion_in_front fusion random "${fused_too_much}")
+    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner != row) faces" BY "if (shadow->owner != row + 1000000) faces"
+        COMPILE backend_plain.c)
+    occ_caught_by(fusion_of_owners fusion random "${fused_too_much}")
+    occ_plant(fusion_half_a_piece IN kernels/fusion.h REPLACE "if (cut == OCC_CUT_TWO) fusion->depth++;"
+        BY "if (cut == OCC_CUT_TWO && p) fusion->depth++;" COMPILE backend_plain.c)
+    occ_caught_by(fusion_half_a_piece fusion random "${fused_too_much}")
+endif()

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// What several occluders hide together. Shadows are subtracted one after the other from what the
+// eye sees of an object, until nothing is left, or a piece whose middle no shadow holds: then the
+// object is visible there (after Weiler and Atherton, Hidden Surface Removal Using Polygon Area
+// Sorting, SIGGRAPH 1977). Where the stack, the number of cuts or the floats do not suffice, the
+// answer is "visible" as well.
+#ifndef OCC_FUSION_H
+#define OCC_FUSION_H
+
+#include "outline.h"
+
+#define OCC_SIDE_PLANES       4u // left, right, bottom, top; near and far follow
+#define OCC_FUSION_STACK      16u
+#define OCC_FUSION_SPLITS     48u
+#define OCC_FUSION_CANDIDATES 64u
+
+// The pieces in hand, and the shadows that the object touches.
+typedef struct occ_fusion {
+    occ_piece stack[OCC_FUSION_STACK];
+    occ_u32 depth;
+    occ_u32 candidate[OCC_FUSION_CANDIDATES];
+    occ_u32 planes[OCC_FUSION_CANDIDATES]; // bit p: plane p of the shadow cuts the object
+    occ_u32 candidates;
+} occ_fusion;
+
+// How many planes of a shadow are silhouettes; those of faces come after them.
+OCC_FN occ_u32 occ_shadow_silhouettes(OCC_GLOBAL const occ_shadow *shadow)
+{
+    return shadow->planes == 5u ? 4u : 6u;
+}
+
+// (A structure that is returned by value would do; oclgrind does not know what LLVM makes of it.)
+OCC_FN void occ_cutter_set(occ_cutter *n, OCC_PLANES_OF plane, float turn)
+{
+    n->x = turn * plane[0];
+    n->y = turn * plane[1];
+    n->z = turn * plane[2];
+    n->d = turn * plane[3];
+}
+
+// Lists a shadow that the object touches, with the planes that cut the object. Returns those of
+// them that are faces.
+OCC_FN occ_u32 occ_fusion_consider(occ_fusion *fusion, const occ_relative_box *box,
+                                   OCC_GLOBAL const occ_shadow *shadow, occ_u32 index)
+{
+    occ_u32 cutting = 0;
+    for (occ_u32 p = 0; p < shadow->planes; p++) {
+        OCC_PLANES_OF plane = shadow->plane[p];
+        float s =
+            OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], box->t[0], box->t[1], box->t[2]);
+        float r = occ_box_reach(box, plane[0], plane[1], plane[2]);
+        if (OCC_IS_OUTSIDE(s, r, box->e)) return 0;
+        if (!OCC_IS_INSIDE(s, r, box->e)) cutting |= 1u << p;
+    }
+    fusion->candidate[fusion->candidates] = index;
+    fusion->planes[fusion->candidates++] = cutting;
+    return cutting >> occ_shadow_silhouettes(shadow);
+}
+
+// The sum of a piece's vertices, which is its middle times their number.
+OCC_FN void occ_piece_middle(const occ_piece *piece, occ_vertex *middle)
+{
+    *middle = piece->v[0];
+    for (occ_u32 i = 1; i < piece->count; i++) {
+        middle->x += piece->v[i].x;
+        middle->y += piece->v[i].y;
+        middle->z += piece->v[i].z;
+        middle->w += piece->v[i].w;
+        middle->e += piece->v[i].e;
+    }
+}
+
+// Whether a shadow's planes hold the middle with room to spare, so that cutting gets somewhere.
+OCC_FN int occ_shadow_holds(OCC_GLOBAL const occ_shadow *shadow, occ_u32 planes,
+                            const occ_vertex *middle, float count)
+{
+    for (occ_u32 p = 0; p < shadow->planes; p++) {
+        if (!(planes >> p & 1u)) continue;
+        occ_cutter n;
+        occ_cutter_set(&n, shadow->plane[p], 1.0f);
+        float least =
+            middle->e + count * OCC_VERTEX_SLACK + OCC_FABS(n.d * middle->w) * OCC_OFFSET_SLACK;
+        if (!(occ_vertex_at(middle, &n) > 2.0f * least)) return 0;
+    }
+    return 1;
+}
+
+// The first candidate that holds the middle of the piece on top of the stack, or their number.
+OCC_FN occ_u32 occ_fusion_find(const occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadows,
+                               int by_faces)
+{
+    const occ_piece *top = &fusion->stack[fusion->depth - 1];
+    occ_vertex middle;
+    occ_piece_middle(top, &middle);
+    occ_u32 i = 0;
+    for (; i < fusion->candidates; i++) {
+        OCC_GLOBAL const occ_shadow *shadow = &shadows[fusion->candidate[i]];
+        if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;
+        if (occ_shadow_holds(shadow, fusion->planes[i], &middle, (float)top->count)) break;
+    }
+    return i;
+}
+
+// Takes a shadow from the piece on top of the stack, which it replaces by what is left. 0 if that
+// cannot be done.
+OCC_FN int occ_fusion_subtract(occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadow,
+                               occ_u32 planes)
+{
+    occ_piece piece = fusion->stack[--fusion->depth];
+    for (occ_u32 p = 0; p < shadow->planes; p++) {
+        if (!(planes >> p & 1u)) continue;
+        occ_cutter n;
+        occ_cutter_set(&n, shadow->plane[p], 1.0f);
+        if (fusion->depth == OCC_FUSION_STACK) return 0;
+        int cut = occ_piece_cut(&piece, &n, &piece, &fusion->stack[fusion->depth]);
+        if (cut == OCC_CUT_OUTSIDE || cut == OCC_CUT_FAILED) return 0;
+        if (cut == OCC_CUT_TWO) fusion->depth++;
+    }
+    return 1;
+}
+
+// Takes away what is outside of the frustum's side planes that `mask` names.
+OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask)
+{
+    for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
+        if (!(mask >> p & 1u)) continue;
+        occ_cutter beyond;
+        occ_cutter_set(&beyond, eye->plane[p], -1.0f);
+        occ_u32 kept = 0;
+        for (occ_u32 i = 0; i < fusion->depth; i++) {
+            occ_piece lost, rest;
+            int cut = occ_piece_cut(&fusion->stack[i], &beyond, &lost, &rest);
+            if (cut == OCC_CUT_INSIDE) continue;
+            if (cut != OCC_CUT_TWO) rest = fusion->stack[i];
+            fusion->stack[kept++] = rest;
+        }
+        fusion->depth = kept;
+    }
+}
+
+// Whether the candidates hide the outline, or the faces, of the object. An outline is no part of
+// the object's surface: only candidates that are wholly in front may be taken from it.
+OCC_FN int occ_fusion_covers(occ_fusion *fusion, const occ_relative_box *box,
+                             OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
+                             OCC_GLOBAL const occ_shadow *shadows, int by_faces)
+{
+    fusion->depth = occ_outline(fusion->stack, box, eye, by_faces);
+    if (!fusion->depth) return 0;
+    occ_fusion_clip(fusion, eye, mask);
+    for (occ_u32 split = 0; fusion->depth; split++) {
+        occ_u32 i = occ_fusion_find(fusion, shadows, by_faces);
+        if (i == fusion->candidates || split == OCC_FUSION_SPLITS ||
+            !occ_fusion_subtract(fusion, &shadows[fusion->candidate[i]], fusion->planes[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+// The object is hidden by the candidates together.
+OCC_FN int occ_box_fused(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
+                         OCC_GLOBAL const occ_shadow *shadows, OCC_GLOBAL const occ_u32 *list,
+                         occ_u32 count, occ_u32 row)
+{
+    occ_fusion fusion;
+    occ_u32 faces = 0;
+    fusion.candidates = 0;
+    for (occ_u32 i = 0; i < count && fusion.candidates < OCC_FUSION_CANDIDATES; i++) {
+        OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
+        if (shadow->owner != row) faces |= occ_fusion_consider(&fusion, box, shadow, list[i]);
+    }
+    if (fusion.candidates == 0) return 0;
+    if (occ_fusion_covers(&fusion, box, eye, mask, shadows, 0)) return 1;
+    return faces && occ_fusion_covers(&fusion, box, eye, mask, shadows, 1);
+}
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the eye sees of a box, as pieces: its outline, a convex polygon of four or six corners, or
+// its faces one by one.
+#ifndef OCC_OUTLINE_H
+#define OCC_OUTLINE_H
+
+#include "piece.h"
+
+#define OCC_OUTLINE_PIECES 6u
+
+#define OCC_SIDE_NONE  0 // the eye is between the two faces, or there are none
+#define OCC_SIDE_MINUS 1 // it sees the face at -axis
+#define OCC_SIDE_PLUS  2
+#define OCC_SIDE_DOUBT 3
+
+// Which face of pair k the eye sees. With the eye at 0, n = a x b and the box from n.t - |n.c| to
+// n.t + |n.c| along n, it is in front of the nearer face if |n.t| > |n.c|.
+OCC_FN int occ_side_seen(const occ_relative_box *box, occ_u32 k, OCC_GLOBAL const occ_eye *eye)
+{
+    const float *a = box->a + 3 * ((k + 1) % 3), *b = box->a + 3 * ((k + 2) % 3);
+    const float *c = box->a + 3 * k, *t = box->t;
+    float area = OCC_NORM1(a[0], a[1], a[2]) * OCC_NORM1(b[0], b[1], b[2]);
+    float depth = OCC_NORM1(c[0], c[1], c[2]);
+    if (OCC_NORM1(a[0], a[1], a[2]) == 0.0f || OCC_NORM1(b[0], b[1], b[2]) == 0.0f) {
+        return OCC_SIDE_NONE;
+    }
+    if (area < 0x1p-100f || !(area * box->e < 0x1p100f)) return OCC_SIDE_DOUBT;
+    float nx = a[1] * b[2] - a[2] * b[1], ny = a[2] * b[0] - a[0] * b[2];
+    float nz = a[0] * b[1] - a[1] * b[0];
+    float volume = nx * c[0] + ny * c[1] + nz * c[2], extent = OCC_FABS(volume);
+    if (depth > 0.0f && extent <= area * depth * 0x1p-19f) return OCC_SIDE_DOUBT;
+    float at = nx * t[0] + ny * t[1] + nz * t[2], error = area * (8.0f * box->e + eye->doubt);
+    if (eye->toward[3] != 0.0f) { // orthographic: the eye is far off
+        at = -(nx * eye->toward[0] + ny * eye->toward[1] + nz * eye->toward[2]);
+        extent = 0.0f;
+        error = area * 0x1p-19f;
+    }
+    if (OCC_FABS(at) - extent > error) {
+        return (at < 0.0f) == (volume >= 0.0f) ? OCC_SIDE_PLUS : OCC_SIDE_MINUS;
+    }
+    return extent - OCC_FABS(at) > error ? OCC_SIDE_NONE : OCC_SIDE_DOUBT;
+}
+
+// The corner that is on side s[k] of axis k, except for those axes that `flip` names. 0 if floats
+// cannot say where it is.
+OCC_FN int occ_outline_add(occ_piece *piece, const occ_relative_box *box, const float *s,
+                           occ_u32 flip)
+{
+    float s0 = flip & 1u ? -s[0] : s[0], s1 = flip & 2u ? -s[1] : s[1];
+    float s2 = flip & 4u ? -s[2] : s[2];
+    occ_vertex *v = &piece->v[piece->count++];
+    v->x = ((box->t[0] + s0 * box->a[0]) + s1 * box->a[3]) + s2 * box->a[6];
+    v->y = ((box->t[1] + s0 * box->a[1]) + s1 * box->a[4]) + s2 * box->a[7];
+    v->z = ((box->t[2] + s0 * box->a[2]) + s1 * box->a[5]) + s2 * box->a[8];
+    v->w = 1.0f;
+    v->e = box->e;
+    return occ_vertex_scale(v);
+}
+
+// Face `side` of pair k.
+OCC_FN int occ_outline_face(occ_piece *piece, const occ_relative_box *box, occ_u32 k, float side)
+{
+    float s[3] = {1.0f, 1.0f, 1.0f};
+    occ_u32 a = 1u << (k + 1) % 3, b = 1u << (k + 2) % 3;
+    s[k] = side;
+    piece->count = piece->cuts = 0;
+    return occ_outline_add(piece, box, s, 0) && occ_outline_add(piece, box, s, a) &&
+           occ_outline_add(piece, box, s, a | b) && occ_outline_add(piece, box, s, b);
+}
+
+// Where two or three faces are seen, their outline has six corners: with three, all but the nearest
+// and the farthest; with two, all of both, and the third axis runs along the edge between them.
+OCC_FN int occ_outline_hexagon(occ_piece *piece, const occ_relative_box *box, const int *side)
+{
+    float s[3];
+    for (occ_u32 k = 0; k < 3; k++)
+        s[k] = side[k] == OCC_SIDE_MINUS ? -1.0f : 1.0f;
+    int two = side[0] == OCC_SIDE_NONE || side[1] == OCC_SIDE_NONE || side[2] == OCC_SIDE_NONE;
+    occ_u32 k = side[0] == OCC_SIDE_NONE ? 0u : side[1] == OCC_SIDE_NONE ? 1u : 2u;
+    occ_u32 a = 1u << (k + 1) % 3, b = 1u << (k + 2) % 3, c = 1u << k;
+    piece->count = piece->cuts = 0;
+    return occ_outline_add(piece, box, s, a) && occ_outline_add(piece, box, s, two ? 0u : a | b) &&
+           occ_outline_add(piece, box, s, b) && occ_outline_add(piece, box, s, b | c) &&
+           occ_outline_add(piece, box, s, c) && occ_outline_add(piece, box, s, a | c);
+}
+
+// Whether the eye is outside of the box for certain, by the box's axis-aligned bounds alone.
+OCC_FN int occ_outline_is_apart(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye)
+{
+    const float *t = box->t, *a = box->a;
+    float least = 2.0f * box->e + eye->doubt;
+    return eye->toward[3] != 0.0f || OCC_FABS(t[0]) - OCC_NORM1(a[0], a[3], a[6]) > least ||
+           OCC_FABS(t[1]) - OCC_NORM1(a[1], a[4], a[7]) > least ||
+           OCC_FABS(t[2]) - OCC_NORM1(a[2], a[5], a[8]) > least;
+}
+
+// How many pieces the outline has, or the faces: every face that may be seen, where it is in doubt
+// which are. 0: it cannot be told, for the eye may be inside.
+OCC_FN occ_u32 occ_outline(occ_piece *pieces, const occ_relative_box *box,
+                           OCC_GLOBAL const occ_eye *eye, int by_faces)
+{
+    int side[3];
+    occ_u32 seen = 0, doubts = 0, count = 0;
+    for (occ_u32 k = 0; k < 3; k++) {
+        side[k] = occ_side_seen(box, k, eye);
+        seen += side[k] == OCC_SIDE_PLUS || side[k] == OCC_SIDE_MINUS;
+        doubts += side[k] == OCC_SIDE_DOUBT;
+    }
+    if (!seen && !occ_outline_is_apart(box, eye)) return 0;
+    if (!doubts && seen > 1 && !by_faces) return (occ_u32)occ_outline_hexagon(pieces, box, side);
+    for (occ_u32 k = 0; k < 3; k++) {
+        if (side[k] == OCC_SIDE_NONE) continue;
+        if (side[k] != OCC_SIDE_MINUS && !occ_outline_face(&pieces[count++], box, k, 1.0f))
+            return 0;
+        if (side[k] != OCC_SIDE_PLUS && !occ_outline_face(&pieces[count++], box, k, -1.0f))
+            return 0;
+    }
+    return count;
+}
+
+#endif
