@@ -25,13 +25,13 @@ void mini_close_views(mini_views *views)
     *views = (mini_views){.view = {NULL}};
 }
 
-// The three methods, and `single` a second time with nodes and limits as they are by default.
+// The methods, and `single` a second time with nodes and limits as they are by default.
 typedef struct trial {
     const char *name;
     occ_cull_desc knobs;
 } trial;
 
-enum { TRIALS = 4 };
+enum { TRIALS = 5 };
 
 static void set_trials(trial trials[TRIALS])
 {
@@ -40,6 +40,7 @@ static void set_trials(trial trials[TRIALS])
     trials[2] = (trial){"single", world_knobs(OCC_METHOD_SINGLE)};
     trials[2].knobs.grain = 1;
     trials[3] = (trial){"single", {.method = OCC_METHOD_SINGLE}};
+    trials[4] = (trial){"fused", world_knobs(OCC_METHOD_FUSED)};
 }
 
 // One world under examination. The judges come when an object is left out.
@@ -101,6 +102,7 @@ static bool is_wrong(court *c, const trial *t, const char *backend, uint32_t i)
     const char *out = t->knobs.method == OCC_METHOD_FRUSTUM ? "outside" : "left out";
     if (c->is_seen[i])
         return accuse(c, "object %u is %s, but seen: %s, %s", i, out, t->name, backend);
+    if (t->knobs.method == OCC_METHOD_FUSED) return false; // several together
     bool may_be = c->is_outside[i];
     if (t->knobs.method != OCC_METHOD_FRUSTUM) may_be = may_be || c->is_behind[i];
     if (may_be) return false;

@@ -49,6 +49,7 @@ START_TEST(the_devices_mask_is_the_plain_mask_on_every_named_scene)
     static const uint32_t counts[] = {80, 80, 200, 80, 80}; // enough for something to be hidden
     static const occ_cull_desc knobs[] = {{.method = OCC_METHOD_SINGLE, .grain = 1},
                                           {.method = OCC_METHOD_SINGLE, .grain = 100000},
+                                          {.method = OCC_METHOD_FUSED},
                                           {.method = OCC_METHOD_PAIRWISE}};
     obs_scene file;
     ck_assert(scenes_make(scenes_kinds[_i].name, counts[_i], 2, &file));

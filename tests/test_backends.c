@@ -36,6 +36,8 @@ static const occ_cull_desc all_knobs[] = {
     {.method = OCC_METHOD_SINGLE, .min_area = 1e-2f, .max_occluders = 5, .grain = 64},
     {.method = OCC_METHOD_FRUSTUM, .grain = 1},
     {.method = OCC_METHOD_FRUSTUM, .grain = 100000},
+    {.method = OCC_METHOD_FUSED, .grain = 1},
+    {.method = OCC_METHOD_FUSED, .grain = 64},
     {.method = OCC_METHOD_PAIRWISE}};
 
 enum { KNOBS = sizeof all_knobs / sizeof *all_knobs, FRAMES = 3, RUNS = FRAMES * KNOBS };

@@ -153,8 +153,8 @@ static unsigned count_false(const gl_stage *s, const occ_view *view, bool lie, g
 
 static void check_masks(gl_stage *s, const gl_library *library, const char *name, uint32_t frame)
 {
-    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE};
-    for (int m = 0; m < 2; m++) {
+    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_FUSED, OCC_METHOD_PAIRWISE};
+    for (int m = 0; m < 3; m++) {
         occ_cull_desc knobs = world_knobs(methods[m]);
         gl_counts counts;
         uint32_t first = 0;

@@ -22,7 +22,7 @@ static uint32_t seen_of(occ_scene *scene, occ_view *view, occ_method method)
 
 static void check_scene(const occ_box *boxes, int owner)
 {
-    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE};
+    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE, OCC_METHOD_FUSED};
     const world_occluder walls[2] = {{{{0, 0, -10}, {{9, 0, 0}, {0, 9, 0}, {0, 0, 0}}}, owner},
                                      {{{0, 0, 50}, {{9, 0, 0}, {0, 9, 0}, {0, 0, 1}}}, -1}};
     occ_scene *bare = world_scene(boxes, BOXES, walls + 1, 1, 0);

@@ -164,9 +164,9 @@ static meta with_twins(const meta *m)
 
 START_TEST(a_twin_is_seen_with_its_twin_unless_that_hides_it)
 {
-    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE,
+    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_FUSED, OCC_METHOD_PAIRWISE,
                                          OCC_METHOD_FRUSTUM};
-    for (int n = 0; n < 3; n++) {
+    for (int n = 0; n < 4; n++) {
         bool small = methods[n] == OCC_METHOD_PAIRWISE;
         meta m = meta_scene(names[_i], small ? 600 : WORLD_SHARE(3000), 7);
         meta twins = with_twins(&m);
