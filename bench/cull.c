@@ -23,6 +23,7 @@ static const char cull_usage[] =
     "Culls every frame of a scene file, and measures it. The last line printed sums it up.\n"
     "\n"
     "  --method M         single (default): octree, chosen occluders, exact test against each\n"
+    "                     fused: the same, and what several occluders hide together\n"
     "                     frustum: nothing is hidden\n"
     "                     pairwise: every object against every occluder, exact test\n"
     "                     thesis: the 2019 thesis's test as published; it hides visible objects\n"

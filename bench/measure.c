@@ -37,10 +37,10 @@ measure_settings measure_defaults(void)
 
 static bool find_method(const char *name, occ_method *method)
 {
-    static const char *const names[] = {"single", "frustum", "pairwise"};
-    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_FRUSTUM,
-                                         OCC_METHOD_PAIRWISE};
-    for (int i = 0; i < 3; i++)
+    static const char *const names[] = {"single", "frustum", "pairwise", "fused"};
+    static const occ_method methods[] = {OCC_METHOD_SINGLE, OCC_METHOD_FRUSTUM, OCC_METHOD_PAIRWISE,
+                                         OCC_METHOD_FUSED};
+    for (int i = 0; i < 4; i++)
         if (strcmp(name, names[i]) == 0) {
             *method = methods[i];
             return true;
@@ -73,7 +73,8 @@ const char *measure_complete(measure_settings *settings)
     const peer_method *peer = peer_find(settings->method);
     if (!settings->backend) settings->backend = peer ? "plain" : "openmp";
     if (!peer && !find_method(settings->method, &method))
-        return "expected frustum, thesis, embree-depth, embree-rays, pairwise or single after "
+        return "expected frustum, thesis, embree-depth, embree-rays, pairwise, single or fused "
+               "after "
                "--method";
     if (!find_backend(settings->backend, &backend))
         return "expected plain, openmp or opencl after --backend";

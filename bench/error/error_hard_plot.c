@@ -16,6 +16,7 @@ typedef struct hard_style {
 
 static const hard_style hard_styles[] = {
     {"single", "single", 1, 0x0050a0, 7},
+    {"fused", "fused", 1, 0x007030, 13},
     {"pairwise", "pairwise", 1, 0x8040c0, 12},
     {"embree-depth", "Embree, depth buffer", 1, 0x00a080, 4},
     {"embree-rays", "Embree, rays", 1, 0x60a000, 8},

@@ -7,6 +7,7 @@
 const error_method error_methods[] = {
     {"frustum", ERROR_ONE_SIDED},
     {"single", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED},
+    {"fused", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED},
     {"pairwise", ERROR_BACKENDS | ERROR_BRIEF | ERROR_ONE_SIDED},
     {"embree-depth", ERROR_THREADS | ERROR_RAYS},
     {"embree-rays", ERROR_THREADS | ERROR_BRIEF},

@@ -31,7 +31,8 @@ static const char hard_usage[] =
     "  --offset O         0 to 1e7 units from the origin, instead of four of them in turn\n"
     "  --seed N           number of the first world (default 0)\n"
     "  --worlds N         worlds of each family (default 112: every place four times)\n"
-    "  --method M         single (default), pairwise, or frustum, which misses all that is hidden\n"
+    "  --method M         single (default), fused, pairwise, or frustum, which misses all that is\n"
+    "                     hidden\n"
     "  --backend B        plain (default), openmp, opencl\n"
     "  --threads T        of the openmp backend; with the plain one, worlds at a time\n"
     "                     (default: one to a processor)\n"
@@ -65,14 +66,15 @@ static bool pick(const char *name, const char *const *names, const int *values, 
 // Returns a complaint, or NULL.
 static const char *complete(hard_arguments *a)
 {
-    static const char *const methods[] = {"single", "pairwise", "frustum", NULL};
-    static const int method_values[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE, OCC_METHOD_FRUSTUM};
+    static const char *const methods[] = {"single", "pairwise", "frustum", "fused", NULL};
+    static const int method_values[] = {OCC_METHOD_SINGLE, OCC_METHOD_PAIRWISE, OCC_METHOD_FRUSTUM,
+                                        OCC_METHOD_FUSED};
     static const char *const backends[] = {"plain", "openmp", "opencl", NULL};
     static const int backend_values[] = {OCC_BACKEND_PLAIN, OCC_BACKEND_OPENMP, OCC_BACKEND_OPENCL};
     tour_settings *tour = &a->tour;
     int method, backend;
     if (!pick(a->method, methods, method_values, &method))
-        return "expected single, pairwise or frustum after --method";
+        return "expected single, fused, pairwise or frustum after --method";
     if (!pick(a->backend, backends, backend_values, &backend))
         return "expected plain, openmp or opencl after --backend";
     if (a->seed && !options_number(a->seed, 0, UINT64_MAX / 2, &tour->first))
