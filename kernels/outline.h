@@ -6,8 +6,6 @@
 
 #include "piece.h"
 
-#define OCC_OUTLINE_PIECES 6u
-
 #define OCC_SIDE_NONE  0 // the eye is between the two faces, or there are none
 #define OCC_SIDE_MINUS 1 // it sees the face at -axis
 #define OCC_SIDE_PLUS  2
