@@ -237,6 +237,11 @@ occ_result occ_camera_init(occ_camera *camera, const occ_camera_desc *desc, cons
     for (int j = 0; j < 3 && (given || camera->orthographic); j++)
         camera->doubt[j] = 0.0;
     measure_view(camera);
+    static const int used[3] = {0, 1, 3};
+    for (int r = 0; r < 3; r++)
+        for (int j = 0; j < 3; j++)
+            camera->screen[r][j] = (float)row[used[r]][j];
+    camera->screen_w = camera->orthographic ? (float)row[3][3] : 0.0f;
     set_constants(camera);
     return OCC_SUCCESS;
 }

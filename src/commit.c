@@ -127,7 +127,17 @@ static occ_result commit_objects(occ_scene *scene)
         if (result || fits) return result;
         scene->objects_reordered = true;
     }
+    scene->occluders_reordered = true; // their owners' rows change
     return rebuild_objects(scene);
+}
+
+static float largest_reach(const occ_scene *scene, uint32_t first, uint32_t count)
+{
+    const uint32_t *order = scene->occluder_order.data;
+    float most = 0.0f;
+    for (uint32_t i = first; i < first + count; i++)
+        most = fmaxf(most, occ_occluder_reach(&occ_scene_occluder_boxes(scene)[order[i]]));
+    return most;
 }
 
 // The largest reach below each node, from the last node to the root.
@@ -135,17 +145,26 @@ static void refit_reach(occ_scene *scene)
 {
     const occ_octree *tree = &scene->occluder_tree;
     const occ_node *nodes = occ_octree_nodes(tree);
-    const uint32_t *order = scene->occluder_order.data;
     float *reach = scene->reach.data;
     for (uint32_t n = tree->nodes.count; n-- > 0;) {
-        float most = 0.0f;
-        for (uint32_t i = 0, own = occ_node_own(tree, &nodes[n]); i < own; i++) {
-            uint32_t slot = order[nodes[n].first + i];
-            most = fmaxf(most, occ_occluder_reach(&occ_scene_occluder_boxes(scene)[slot]));
-        }
+        float most = largest_reach(scene, scene->attached_count + nodes[n].first,
+                                   occ_node_own(tree, &nodes[n]));
         for (uint32_t c = 0; c < nodes[n].children; c++)
             most = fmaxf(most, reach[nodes[n].child + c]);
         reach[n] = most;
+    }
+    tree = &scene->object_tree;
+    nodes = occ_octree_nodes(tree);
+    occ_attached *attached = scene->attached.data;
+    for (uint32_t n = tree->nodes.count; n-- > 0;) {
+        uint32_t own = attached[n].count;
+        float most = 0.0f;
+        for (uint32_t c = 0; c < nodes[n].children; c++) {
+            const occ_attached *child = &attached[nodes[n].child + c];
+            most = fmaxf(most, child->reach);
+            own -= child->count;
+        }
+        attached[n].reach = fmaxf(most, largest_reach(scene, attached[n].first, own));
     }
 }
 
@@ -162,25 +181,54 @@ static void drop_orphans(occ_scene *scene)
     scene->owners_removed = false;
 }
 
-static uint32_t list_occluders(const occ_scene *scene, uint32_t *slots)
+// Sorts the attached occluders by their owners' rows, and lists the free ones after them.
+static void list_occluders(occ_scene *scene, uint32_t *place)
 {
-    uint32_t count = 0;
-    for (uint32_t s = 0; s < scene->occluders.count; s++)
-        if (occ_slots_is_taken(&scene->occluders, s)) slots[count++] = s;
-    return count;
+    const occ_slots *occluders = &scene->occluders;
+    uint32_t rows = scene->boxes.count, *order = scene->occluder_order.data, sum = 0;
+    memset(place, 0, ((size_t)rows + 1) * sizeof *place);
+    for (uint32_t s = 0; s < occluders->count; s++)
+        if (occ_slots_is_taken(occluders, s) && occluders->value[s] != OCC_NO_SLOT)
+            place[scene->objects.value[occluders->value[s]]]++;
+    for (uint32_t row = 0; row <= rows; row++) {
+        uint32_t here = place[row];
+        place[row] = sum;
+        sum += here;
+    }
+    scene->attached_count = sum;
+    const occ_node *nodes = occ_octree_nodes(&scene->object_tree);
+    occ_attached *attached = scene->attached.data;
+    for (uint32_t n = 0; n < scene->object_tree.nodes.count; n++) {
+        attached[n].first = place[nodes[n].first];
+        attached[n].count = place[nodes[n].first + nodes[n].count] - attached[n].first;
+    }
+    for (uint32_t s = 0; s < occluders->count; s++) {
+        if (!occ_slots_is_taken(occluders, s)) continue;
+        uint32_t owner = occluders->value[s];
+        order[owner == OCC_NO_SLOT ? sum++ : place[scene->objects.value[owner]]++] = s;
+    }
 }
 
 static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *items)
 {
-    uint32_t count = scene->occluders.taken;
-    occ_result result = occ_array_reserve(&scene->hooks, &scene->occluder_order, count);
-    if (result) return result;
-    uint32_t *order = scene->occluder_order.data;
-    scene->occluder_order.count = list_occluders(scene, order);
-    occ_root root = occ_octree_root(items, order, count);
-    result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, &root, order, count);
+    uint32_t count = scene->occluders.taken, nodes = scene->object_tree.nodes.count;
+    size_t bytes = ((size_t)scene->boxes.count + 1) * sizeof(uint32_t);
+    uint32_t *place = occ_alloc(&scene->hooks, bytes);
+    occ_result result = place ? OCC_SUCCESS : OCC_ERROR_OUT_OF_MEMORY;
+    if (!result) result = occ_array_reserve(&scene->hooks, &scene->occluder_order, count);
+    if (!result) result = occ_array_reserve(&scene->hooks, &scene->attached, nodes);
     if (!result) {
-        uint32_t nodes = scene->occluder_tree.nodes.count;
+        scene->attached.count = nodes;
+        scene->occluder_order.count = count;
+        list_occluders(scene, place);
+        uint32_t *order = (uint32_t *)scene->occluder_order.data + scene->attached_count;
+        count -= scene->attached_count;
+        occ_root root = occ_octree_root(items, order, count);
+        result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, &root, order, count);
+    }
+    occ_free(&scene->hooks, place, bytes);
+    if (!result) {
+        nodes = scene->occluder_tree.nodes.count;
         result = occ_array_reserve(&scene->hooks, &scene->reach, nodes);
         if (!result) scene->reach.count = nodes;
     }
@@ -190,9 +238,11 @@ static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *item
 
 static occ_result refit_occluders(occ_scene *scene, const occ_tree_items *items)
 {
-    const uint32_t *order = scene->occluder_order.data;
     if (!scene->occluders_reordered) {
-        occ_root root = occ_octree_root(items, order, scene->occluder_order.count);
+        const uint32_t *order = scene->occluder_order.data;
+        order = order ? order + scene->attached_count : NULL;
+        occ_root root =
+            occ_octree_root(items, order, scene->occluder_order.count - scene->attached_count);
         if (occ_root_equals(&root, &scene->occluder_tree.root)) {
             occ_octree_refit(&scene->occluder_tree, items, order);
             return OCC_SUCCESS;
@@ -208,7 +258,7 @@ static occ_result commit_occluders(occ_scene *scene)
     uint32_t slots = scene->occluders.count;
     size_t bytes = (size_t)slots * sizeof(bounds);
     bounds *table = occ_alloc(&scene->hooks, bytes);
-    if (!table) return OCC_ERROR_OUT_OF_MEMORY;
+    if (slots && !table) return OCC_ERROR_OUT_OF_MEMORY;
     occ_tree_items items = occ_scene_occluder_items(scene);
     items = cache_bounds(&items, slots, table);
     occ_result result = refit_occluders(scene, &items);

@@ -6,13 +6,10 @@
 void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
 {
     *frame = (occ_frame){.hooks = hooks, .lanes = lanes};
-    frame->blocks = OCC_ARRAY(occ_shadow_block);
     frame->shadows = OCC_ARRAY(occ_shadow);
     frame->wide = OCC_ARRAY(occ_wide_shadow);
     frame->sources = OCC_ARRAY(occ_occluder);
-    frame->pool = OCC_ARRAY(uint32_t);
-    frame->inherited = OCC_ARRAY(uint32_t);
-    frame->touched = OCC_ARRAY(uint8_t);
+    frame->rects = OCC_ARRAY(occ_rect_block);
     frame->ranges = OCC_ARRAY(occ_range);
     frame->candidates = OCC_ARRAY(uint32_t);
     frame->verdicts = OCC_ARRAY(occ_verdict);
@@ -20,11 +17,38 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
 
 void occ_frame_free(occ_frame *frame)
 {
-    occ_array *arrays[] = {&frame->heap,    &frame->blocks, &frame->shadows,    &frame->sources,
-                           &frame->wide,    &frame->stack,  &frame->pool,       &frame->inherited,
-                           &frame->touched, &frame->ranges, &frame->candidates, &frame->verdicts};
+    occ_array *arrays[] = {&frame->shadows, &frame->wide,       &frame->sources,
+                           &frame->rects,   &frame->heap,       &frame->open,
+                           &frame->ranges,  &frame->candidates, &frame->verdicts};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (arrays[i]->element) occ_array_free(frame->hooks, arrays[i]);
+}
+
+float occ_frame_nearness(const occ_frame *frame, const float t[3], const float h[3])
+{
+    const occ_camera *camera = &frame->camera;
+    float sum = 0.0f;
+    for (int j = 0; j < 3; j++) {
+        float gap = fabsf(t[j]) - h[j];
+        if (camera->orthographic) {
+            float toward = (float)camera->toward[j];
+            sum -= toward * t[j] + fabsf(toward) * h[j];
+        } else if (gap > 0.0f) {
+            sum += gap * gap;
+        }
+    }
+    return sum;
+}
+
+float occ_frame_farness(const occ_frame *frame, const float t[3], const float h[3])
+{
+    const occ_camera *camera = &frame->camera;
+    float sum = 0.0f;
+    for (int j = 0; j < 3; j++) {
+        float far = fabsf(t[j]) + h[j], toward = (float)camera->toward[j];
+        sum += camera->orthographic ? fabsf(toward) * h[j] - toward * t[j] : far * far;
+    }
+    return sum;
 }
 
 occ_relative_box occ_frame_relative(const occ_frame *frame, const occ_box *box)

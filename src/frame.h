@@ -15,19 +15,18 @@ typedef struct occ_frame {
     occ_cull_desc knobs; // with the defaults filled in
     occ_view_stats stats;
 
-    // select.c
-    occ_array heap;    // of select_entry
-    occ_array blocks;  // of occ_shadow_block: the shadows so far, sixteen by sixteen
-    occ_array shadows; // of occ_shadow, frozen after select
+    // occluders.c: the occluders so far, nearest first, frozen after the walk
+    occ_array shadows; // of occ_shadow
     occ_array wide;    // of occ_wide_shadow: the same
     occ_array sources; // of occ_occluder: whose shadow each is
+    occ_array rects;   // of occ_rect_block: where they are on the screen
 
     // walk.c
-    occ_array stack;      // of walk_entry
-    occ_array pool;       // of uint32_t: the candidate lists of the stack's entries
-    occ_array inherited;  // of uint32_t: the list of the entry in hand
-    occ_array touched;    // of uint8_t
-    occ_array ranges;     // of occ_range
+    occ_array heap;    // of walk_entry
+    occ_array pool;    // of uint32_t: the lists of shadows of the heap's entries and of the ranges
+    occ_array open;    // of open_range
+    occ_array touched; // of uint8_t
+    occ_array ranges;  // of occ_range
     occ_array candidates; // of uint32_t: the candidate lists of the ranges
     occ_array verdicts;   // of occ_verdict, filled by the backend
 } occ_frame;
@@ -35,11 +34,29 @@ typedef struct occ_frame {
 void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes);
 void occ_frame_free(occ_frame *frame);
 
-// Chooses this frame's occluders and freezes them, nearest first.
-occ_result occ_select(occ_frame *frame);
-
-// Walks the octree of the objects: decides whole nodes and lists the ranges that stay open.
+// Walks the octree of the objects, front to back: chooses this frame's occluders, decides whole
+// nodes, and lists the ranges that stay open.
 occ_result occ_walk(occ_frame *frame);
+
+// How near the nearest point of an axis-aligned box is, and the farthest: a squared distance, or a
+// depth for an orthographic camera. `t` is its center relative to the eye, `h` half its size.
+float occ_frame_nearness(const occ_frame *frame, const float t[3], const float h[3]);
+float occ_frame_farness(const occ_frame *frame, const float t[3], const float h[3]);
+
+// occluders.c
+void occ_occluders_clear(occ_frame *frame);
+
+// Whether an occluder, relative to the eye, looks large enough to be of use.
+bool occ_occluder_is_large(const occ_frame *frame, const occ_relative_box *box);
+
+// Whether one with this reach may be, at this distance at least.
+bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key);
+
+// Makes an occluder's shadow and adds it to the set, if it has one.
+occ_result occ_occluders_add(occ_frame *frame, uint32_t slot, float key,
+                             const occ_projection *seen);
+
+occ_shadow_set occ_occluders_so_far(const occ_frame *frame);
 
 // A box relative to the eye, with its error bound.
 occ_relative_box occ_frame_relative(const occ_frame *frame, const occ_box *box);

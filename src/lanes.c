@@ -22,47 +22,155 @@
 
 #include "lanes_fusion.h"
 
-// Lanes, from `l` on, whose shadow holds the box's center by more than the bound: a box inside has
-// that too, in floats as well, since s - r rounds to no more than s. Most lanes end here, for a
-// quarter of the work.
-static inline uint32_t hold_center(const occ_shadow_block *block, uint32_t l,
-                                   const occ_relative_box *box)
-{
-    const float *t = box->t;
-    uint32_t held = ALL_WIDE;
-    for (uint32_t p = 0; p < OCC_SHADOW_PLANES && held; p++) {
-        const float(*plane)[OCC_SHADOW_LANES] = block->plane[p];
-        fwide s = OCC_PLANE_AT(load_wide(plane[0] + l), load_wide(plane[1] + l),
-                               load_wide(plane[2] + l), load_wide(plane[3] + l), t[0], t[1], t[2]);
-        held &= bits_wide(s > box->e);
-    }
-    return held;
-}
+// Point i is at t + s0 a0 + s1 a1 + s2 a2 with these signs.
+static const float point_signs[3][OCC_SHADOW_LANES] = {{-1, 1, -1, 1, -1, 1, -1, 1, 0},
+                                                       {-1, -1, 1, 1, -1, -1, 1, 1, 0},
+                                                       {-1, -1, -1, -1, 1, 1, 1, 1, 0}};
 
-static inline uint32_t hold_box(const occ_shadow_block *block, uint32_t l,
-                                const occ_relative_box *box, uint32_t held)
+static void project(const float screen[3][3], float w, const occ_relative_box *box,
+                    occ_projection *seen)
 {
     const float *t = box->t, *a = box->a;
-    for (uint32_t p = 0; p < OCC_SHADOW_PLANES && held; p++) {
-        const float(*plane)[OCC_SHADOW_LANES] = block->plane[p];
-        fwide x = load_wide(plane[0] + l), y = load_wide(plane[1] + l);
-        fwide z = load_wide(plane[2] + l);
-        fwide s = OCC_PLANE_AT(x, y, z, load_wide(plane[3] + l), t[0], t[1], t[2]);
-        fwide r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
-        r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
-        r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
-        held &= bits_wide(OCC_IS_INSIDE(s, r, box->e));
+    uint32_t in_front = 0, shown = 0;
+    for (uint32_t g = 0; g < OCC_POINTS; g += OCC_WIDTH) {
+        fwide s0 = load_wide(point_signs[0] + g), s1 = load_wide(point_signs[1] + g);
+        fwide s2 = load_wide(point_signs[2] + g);
+        fwide x = OCC_CORNER(t[0], s0 * a[0], s1 * a[3], s2 * a[6]);
+        fwide y = OCC_CORNER(t[1], s0 * a[1], s1 * a[4], s2 * a[7]);
+        fwide z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
+        fwide depth = OCC_PLANE_AT(screen[2][0], screen[2][1], screen[2][2], w, x, y, z);
+        fwide u = (screen[0][0] * x + screen[0][1] * y + screen[0][2] * z) / depth;
+        fwide v = (screen[1][0] * x + screen[1][1] * y + screen[1][2] * z) / depth;
+        iwide front = depth > 0.0f;
+        store_wide(seen->x + g, x);
+        store_wide(seen->y + g, y);
+        store_wide(seen->z + g, z);
+        store_wide(seen->u + g, u);
+        store_wide(seen->v + g, v);
+        in_front |= bits_wide(front) << g;
+        shown |= bits_wide(front & (abs_wide(u) <= 1.0f) & (abs_wide(v) <= 1.0f)) << g;
     }
-    return held;
+    const uint32_t all = (1u << OCC_POINTS) - 1u;
+    bool whole = (in_front & all) == all;
+    seen->shown = shown & all;
+    seen->min[0] = whole ? least_of(seen->u, OCC_POINTS) : -INFINITY;
+    seen->min[1] = whole ? least_of(seen->v, OCC_POINTS) : -INFINITY;
+    seen->max[0] = whole ? most_of(seen->u, OCC_POINTS) : INFINITY;
+    seen->max[1] = whole ? most_of(seen->v, OCC_POINTS) : INFINITY;
 }
 
-static bool any_hides(const occ_shadow_block *blocks, uint32_t count, const occ_relative_box *box)
+// Occluders of a block that may touch the box on the screen.
+static inline uint32_t overlap_block(const occ_rect_block *block, uint32_t count,
+                                     const occ_projection *seen, float key)
 {
-    for (uint32_t i = 0; i < count * OCC_SHADOW_LANES; i += OCC_WIDTH) {
-        const occ_shadow_block *block = &blocks[i / OCC_SHADOW_LANES];
-        uint32_t l = i % OCC_SHADOW_LANES, held = hold_center(block, l, box);
-        if (held && hold_box(block, l, box, held)) return true;
+    uint32_t bits = 0;
+    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
+        iwide touching = (load_wide(block->min[0] + g) <= seen->max[0]) &
+                         (load_wide(block->max[0] + g) >= seen->min[0]) &
+                         (load_wide(block->min[1] + g) <= seen->max[1]) &
+                         (load_wide(block->max[1] + g) >= seen->min[1]) &
+                         (load_wide(block->key + g) <= key);
+        bits |= bits_wide(touching) << g;
     }
+    return count >= OCC_SHADOW_LANES ? bits : bits & ((1u << count) - 1u);
+}
+
+// The points of the box that are within an occluder's bounds on the screen.
+static inline uint32_t points_near(const occ_projection *seen, const occ_rect_block *block,
+                                   uint32_t lane)
+{
+    uint32_t bits = 0;
+    for (uint32_t g = 0; g < OCC_POINTS; g += OCC_WIDTH) {
+        fwide u = load_wide(seen->u + g), v = load_wide(seen->v + g);
+        bits |= bits_wide((u >= block->min[0][lane]) & (u <= block->max[0][lane]) &
+                          (v >= block->min[1][lane]) & (v <= block->max[1][lane]))
+                << g;
+    }
+    return bits & ((1u << OCC_POINTS) - 1u);
+}
+
+// Those of `points` that a shadow holds by more than the bound.
+static inline uint32_t points_held(const occ_projection *seen, const occ_wide_shadow *shadow,
+                                   float e, uint32_t points)
+{
+    for (uint32_t p = 0; p < OCC_FACE_LANE + 3 && points; p++) {
+        uint32_t held = 0;
+        for (uint32_t g = 0; g < OCC_POINTS; g += OCC_WIDTH) {
+            fwide s = OCC_PLANE_AT(shadow->plane[0][p], shadow->plane[1][p], shadow->plane[2][p],
+                                   shadow->plane[3][p], load_wide(seen->x + g),
+                                   load_wide(seen->y + g), load_wide(seen->z + g));
+            held |= bits_wide(s > e) << g;
+        }
+        points &= held;
+    }
+    return points;
+}
+
+// Asks one shadow. Whether it hides the box. A shadow whose face cuts the box may hide something of
+// what is in it, but not the box together with others.
+static inline bool ask(fusion_lanes *fusion, const occ_question *question,
+                       const occ_shadow_set *set, uint32_t i)
+{
+    contact met = meet(question->box, &set->wide[i]);
+    if (met.apart) return false;
+    if (set->shadows[i].owner - question->first < question->rows) return false;
+    if (!met.cutting) return true;
+    if (!(met.cutting >> OCC_FACE_LANE)) add_candidate(fusion, &set->wide[i], &met);
+    return false;
+}
+
+// Points first: what no occluder holds shows. (That a point is inside the box, or on its far side,
+// does not matter: on the way from it to the eye no shadow begins.) And only an occluder that holds
+// the center can hide the box alone.
+static bool hide(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye)
+{
+    const uint32_t center = 1u << (OCC_POINTS - 1u);
+    const occ_projection *seen = question->seen;
+    fusion_lanes fusion;
+    uint32_t near[OCC_MOST_SHADOW_BLOCKS], shown = seen->shown;
+    for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
+        uint32_t met = overlap_block(&set->rects[b], set->count - i, seen, question->key);
+        if (b < OCC_MOST_SHADOW_BLOCKS) near[b] = met;
+        for (; met; met &= met - 1u) {
+            uint32_t lane = (uint32_t)__builtin_ctz(met);
+            uint32_t points = points_near(seen, &set->rects[b], lane) & (shown | center);
+            if (!points) continue;
+            points = points_held(seen, &set->wide[i + lane], question->box->e, points);
+            if (!points) continue;
+            if (set->shadows[i + lane].owner - question->first < question->rows) continue;
+            shown &= ~points;
+            if (!(points & center)) continue;
+            contact touch = meet(question->box, &set->wide[i + lane]);
+            if (!touch.apart && !touch.cutting) return true;
+        }
+    }
+    if (shown || !question->fuse) return false;
+    start_fusion(&fusion);
+    for (uint32_t i = 0, b = 0; i < set->count && b < OCC_MOST_SHADOW_BLOCKS;
+         i += OCC_SHADOW_LANES, b++) {
+        for (; near[b]; near[b] &= near[b] - 1u)
+            if (ask(&fusion, question, set, i + (uint32_t)__builtin_ctz(near[b]))) return true;
+    }
+    return fusion.candidates && see_outline(&fusion, question->box, eye, false) &&
+           covers(&fusion, eye, question->frustum, false);
+}
+
+static bool gather(const occ_question *question, const occ_shadow_set *set, uint32_t *list,
+                   uint32_t *count)
+{
+    uint32_t listed = 0;
+    for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
+        uint32_t met = overlap_block(&set->rects[b], set->count - i, question->seen, question->key);
+        for (; met; met &= met - 1u) {
+            uint32_t s = i + (uint32_t)__builtin_ctz(met);
+            contact contact_of = meet(question->box, &set->wide[s]);
+            if (contact_of.apart) continue;
+            bool own = set->shadows[s].owner - question->first < question->rows;
+            if (!contact_of.cutting && !own) return true;
+            list[listed++] = s;
+        }
+    }
+    *count = listed;
     return false;
 }
 
@@ -137,37 +245,6 @@ static void cut(occ_siblings *siblings, const occ_eye *eye)
             siblings->frustum_of[c] &= ~((side.inside >> c & 1u) << p);
     }
     siblings->outside &= (1u << siblings->count) - 1u;
-}
-
-// Bits of the children that own the shadow's occluder: it must not hide them.
-static uint32_t owners_among(const occ_siblings *siblings, uint32_t owner)
-{
-    uint32_t bits = 0;
-    for (uint32_t c = 0; c < siblings->count; c++)
-        bits |= (uint32_t)(owner - siblings->nodes[c].first < siblings->nodes[c].count) << c;
-    return bits;
-}
-
-static void shade(occ_siblings *siblings, const occ_eye *eye, const occ_candidates *candidates,
-                  uint8_t *touched)
-{
-    node_lanes lanes;
-    load_nodes(&lanes, siblings, eye);
-    uint32_t open = ((1u << siblings->count) - 1u) & ~siblings->outside;
-    for (uint32_t i = 0; i < candidates->count; i++) {
-        const occ_shadow *shadow = &candidates->shadows[candidates->list[i]];
-        uint32_t touching = open, inside = open;
-        for (uint32_t p = 0; p < shadow->planes && touching; p++) {
-            sides side = sides_of_nodes(&lanes, shadow->plane[p]);
-            touching &= ~side.outside;
-            inside &= side.inside;
-        }
-        touched[i] = (uint8_t)touching;
-        if (!(touching & inside)) continue;
-        siblings->hidden |= touching & inside & ~owners_among(siblings, shadow->owner);
-        open &= ~siblings->hidden;
-        if (!open) return;
-    }
 }
 
 typedef struct object_lanes {
@@ -249,8 +326,7 @@ static bool fuse(const occ_relative_box *box, const occ_range *range, const occ_
                  const occ_candidates *candidates, uint32_t row)
 {
     fusion_lanes fusion;
-    fusion.candidates = fusion.faces = 0;
-    fusion.held = false;
+    start_fusion(&fusion);
     for (uint32_t i = 0; i < candidates->count; i++) {
         uint32_t c = candidates->list[i];
         if (candidates->shadows[c].owner == row) continue;
@@ -304,4 +380,4 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
 }
 
 extern const occ_lanes OCC_LANES_TABLE;
-const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), any_hides, cut, shade, test};
+const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), project, hide, gather, cut, test};

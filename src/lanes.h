@@ -12,12 +12,6 @@
 #define OCC_NODE_LANES   8u
 #define OCC_SHADOW_LANES 16u
 
-// Sixteen shadows side by side, to be asked about one box. A shadow with fewer planes repeats its
-// last; a lane without a shadow has planes that hold nothing.
-typedef struct occ_shadow_block {
-    float plane[OCC_SHADOW_PLANES][4][OCC_SHADOW_LANES];
-} occ_shadow_block;
-
 #define OCC_FACE_LANE 6u
 
 // One shadow with its planes side by side: coordinate j of plane p is plane[j][p]. Silhouettes
@@ -46,19 +40,58 @@ typedef struct occ_candidates {
     uint32_t count;
 } occ_candidates;
 
+#define OCC_POINTS 9u // the corners of a box, and its center
+
+// A box as the walk sees it: nine points of it, and where it is on the screen, in normalised device
+// coordinates. What is on the screen is a hint: it says which occluders are worth asking.
+typedef struct occ_projection {
+    float x[OCC_SHADOW_LANES], y[OCC_SHADOW_LANES], z[OCC_SHADOW_LANES]; // relative to the eye
+    float u[OCC_SHADOW_LANES], v[OCC_SHADOW_LANES];
+    uint32_t shown;       // bit i: point i is in the picture, as far as floats can tell
+    float min[2], max[2]; // bounds; infinite for a box that is not wholly in front of the eye
+} occ_projection;
+
+// Of sixteen occluders: where each is on the screen, and how near.
+typedef struct occ_rect_block {
+    float min[2][OCC_SHADOW_LANES], max[2][OCC_SHADOW_LANES];
+    float key[OCC_SHADOW_LANES];
+} occ_rect_block;
+
+// The occluders so far, nearest first.
+typedef struct occ_shadow_set {
+    const occ_shadow *shadows;
+    const occ_wide_shadow *wide;
+    const occ_rect_block *rects;
+    uint32_t count;
+} occ_shadow_set;
+
+// A box that the walk asks about.
+typedef struct occ_question {
+    const occ_relative_box *box;
+    const occ_projection *seen;
+    uint32_t frustum;     // planes that may cut it
+    uint32_t first, rows; // what objects [first, first + rows) own cannot hide it
+    float key;            // occluders that are farther do not matter
+    bool fuse;            // whether occluders may hide it together
+} occ_question;
+
 typedef struct occ_lanes {
     const char *name;
 
-    // Whether one of the shadows in `count` blocks holds the box.
-    bool (*any_hides)(const occ_shadow_block *blocks, uint32_t count, const occ_relative_box *box);
+    // Where a box is on the screen.
+    void (*project)(const float screen[3][3], float w, const occ_relative_box *box,
+                    occ_projection *seen);
+
+    // Whether the occluders hide a box.
+    bool (*hide)(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye);
+
+    // Lists those that touch a box, for which there is room, and sets *count; or returns true: one
+    // of them hides it.
+    bool (*gather)(const occ_question *question, const occ_shadow_set *set, uint32_t *list,
+                   uint32_t *count);
 
     // Decides siblings against the frustum.
     void (*cut)(occ_siblings *siblings, const occ_eye *eye);
-
-    // Decides siblings against the candidates. touched[i] gets bit c where candidate i may hide
-    // something of child c: the child's own candidates.
-    void (*shade)(occ_siblings *siblings, const occ_eye *eye, const occ_candidates *candidates,
-                  uint8_t *touched);
 
     // Decides the objects of a range.
     occ_verdict (*test)(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,

@@ -9,7 +9,8 @@
 #include "fusion.h"
 #include "lanes.h"
 
-#define PLANE_GROUPS ((OCC_FACE_LANE + 3 + OCC_WIDTH - 1) / OCC_WIDTH)
+#define OCC_MOST_SHADOW_BLOCKS 256u // beyond, shadows hide alone
+#define PLANE_GROUPS           ((OCC_FACE_LANE + 3 + OCC_WIDTH - 1) / OCC_WIDTH)
 
 typedef struct fusion_lanes {
     piece_lanes stack[OCC_FUSION_STACK + 1]; // cut_piece() needs room for one more
@@ -27,9 +28,14 @@ static inline occ_cutter cutter_of(const occ_wide_shadow *shadow, uint32_t p)
                         shadow->plane[3][p]};
 }
 
-// As occ_fusion_consider().
-static inline bool consider(fusion_lanes *fusion, const occ_relative_box *box,
-                            const occ_wide_shadow *shadow)
+// How a box and a shadow lie.
+typedef struct contact {
+    bool apart;       // it holds nothing of the box
+    uint32_t cutting; // planes that cut the box
+    bool held;        // it holds the box's center
+} contact;
+
+static inline contact meet(const occ_relative_box *box, const occ_wide_shadow *shadow)
 {
     const float *t = box->t, *a = box->a;
     uint32_t cutting = 0, beyond = 0;
@@ -42,17 +48,31 @@ static inline bool consider(fusion_lanes *fusion, const occ_relative_box *box,
         fwide r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
         r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
         r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
-        if (bits_wide(OCC_IS_OUTSIDE(s, r, box->e))) return false;
+        if (bits_wide(OCC_IS_OUTSIDE(s, r, box->e))) return (contact){.apart = true};
         cutting |= (bits_wide(OCC_IS_INSIDE(s, r, box->e)) ^ ALL_WIDE) << g * OCC_WIDTH;
         beyond |= (bits_wide(s > box->e) ^ ALL_WIDE) << g * OCC_WIDTH;
     }
-    if (!cutting) return true;
-    fusion->held |= !beyond;
-    if (fusion->candidates == OCC_FUSION_CANDIDATES) return false;
-    fusion->faces |= cutting >> OCC_FACE_LANE;
+    return (contact){false, cutting, !beyond};
+}
+
+static inline void add_candidate(fusion_lanes *fusion, const occ_wide_shadow *shadow,
+                                 const contact *met)
+{
+    fusion->held |= met->held;
+    if (fusion->candidates == OCC_FUSION_CANDIDATES) return;
+    fusion->faces |= met->cutting >> OCC_FACE_LANE;
     fusion->candidate[fusion->candidates] = shadow;
-    fusion->planes[fusion->candidates++] = cutting;
-    return false;
+    fusion->planes[fusion->candidates++] = met->cutting;
+}
+
+// As occ_fusion_consider().
+static inline bool consider(fusion_lanes *fusion, const occ_relative_box *box,
+                            const occ_wide_shadow *shadow)
+{
+    contact met = meet(box, shadow);
+    if (met.apart) return false;
+    if (met.cutting) add_candidate(fusion, shadow, &met);
+    return !met.cutting;
 }
 
 // As occ_piece_middle().
@@ -176,6 +196,12 @@ static inline bool see_outline(fusion_lanes *fusion, const occ_relative_box *box
     for (uint32_t i = 0; i < outline.polygons; i++)
         if (!outline_piece(&fusion->stack[i], &outline, i, box)) return false;
     return true;
+}
+
+static inline void start_fusion(fusion_lanes *fusion)
+{
+    fusion->candidates = fusion->faces = 0;
+    fusion->held = false;
 }
 
 // As the rest of occ_box_fused(), once all candidates have been considered.

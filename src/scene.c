@@ -78,6 +78,7 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
                         .occluders = OCC_SLOTS,
                         .occluder_boxes = OCC_ARRAY(occ_box),
                         .occluder_order = OCC_ARRAY(uint32_t),
+                        .attached = OCC_ARRAY(occ_attached),
                         .reach = OCC_ARRAY(float),
                         .changed = OCC_ARRAY(uint32_t)};
     occ_octree empty = {.nodes = OCC_ARRAY(occ_node)};
@@ -107,6 +108,7 @@ void occ_scene_destroy(occ_scene *scene)
     occ_array_free(&hooks, &scene->occluder_boxes);
     occ_array_free(&hooks, &scene->occluder_order);
     occ_octree_free(&hooks, &scene->occluder_tree);
+    occ_array_free(&hooks, &scene->attached);
     occ_array_free(&hooks, &scene->reach);
     occ_array_free(&hooks, &scene->changed);
     occ_free(&hooks, scene, sizeof *scene);
@@ -287,7 +289,8 @@ occ_result occ_scene_move_occluder(occ_scene *scene, occ_occluder occluder, cons
     if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
     occ_box *place = (occ_box *)scene->occluder_boxes.data + slot;
     scene->occluders_moved = true;
-    if (!scene->occluders_reordered && !same_key(&scene->occluder_tree, place, box)) {
+    bool is_free = scene->occluders.value[slot] == OCC_NO_SLOT;
+    if (!scene->occluders_reordered && is_free && !same_key(&scene->occluder_tree, place, box)) {
         scene->occluders_reordered = true;
     }
     *place = *box;

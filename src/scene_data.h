@@ -14,6 +14,12 @@
 #include "octree.h"
 #include "slots.h"
 
+// The occluders that objects of a subtree own: [first, first + count) of the order.
+typedef struct occ_attached {
+    uint32_t first, count;
+    float reach; // the largest occ_occluder_reach() among them
+} occ_attached;
+
 #define OCC_CHANGE_ROWS 256u // rows per bit of `changed`
 
 struct occ_scene {
@@ -28,9 +34,13 @@ struct occ_scene {
 
     occ_slots occluders;
     occ_array occluder_boxes; // occ_box per slot
-    occ_array occluder_order; // uint32_t: slots in the order of the tree
-    occ_octree occluder_tree;
-    occ_array reach; // float per node of the tree: the largest occ_occluder_reach() below it
+    occ_array occluder_order; // uint32_t: slots; the attached ones by their owners' rows, then the
+                              // free ones in the order of the tree
+    uint32_t attached_count;
+    occ_octree occluder_tree; // of the free ones
+    occ_array attached;       // occ_attached per node of the objects' tree
+    occ_array
+        reach; // float per node of the occluders' tree: the largest occ_occluder_reach() below it
 
     occ_array changed;      // uint32_t words: which rows the latest commit changed
     bool all_changed;       // or all of them

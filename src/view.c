@@ -164,8 +164,7 @@ static occ_result run_frame(occ_view *view)
     occ_frame *frame = &view->frame;
     double start = now_ms();
     frame->stats = (occ_view_stats){.objects = frame->scene->objects.taken};
-    occ_result result = occ_select(frame);
-    if (!result) result = occ_walk(frame);
+    occ_result result = occ_walk(frame);
     double walked = now_ms();
     if (!result) result = run_test(view);
     if (!result) result = hand_over(view);

@@ -1,146 +1,317 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walk over the objects' octree against the frozen occluders. Siblings are tested together; a
-// node's candidates, those whose shadows touch it, are all that its children look at (hierarchical
-// visibility: Greene, Kass and Miller, SIGGRAPH 1993). Whatever order it runs in, the answer is the
-// same, since the set no longer grows.
+// The walk: front to back over the octrees (hierarchical visibility: Greene, Kass and Miller,
+// SIGGRAPH 1993; occluders by solid angle: Coorg and Teller, I3D 1997). What the occluders found so
+// far hide falls, with all that is in it; what they do not is opened, and its occluders join them,
+// nearest first. The shadows that touch a node are all that is asked about what is in it.
+#include "heap.h"
+
 #include "frame.h"
 
-typedef struct walk_entry {
+// Objects of a node that stay open.
+typedef struct open_range {
+    uint32_t first, count;
     uint32_t node;
-    uint32_t frustum; // planes that may cut it
-    uint32_t list;    // where its candidates begin in `pool`
-    uint32_t count;
-} walk_entry;
+    uint32_t planes;
+} open_range;
 
-// Lists a run of rows as open, cut into ranges that share one candidate list.
-static occ_result leave_open(occ_frame *frame, uint32_t first, uint32_t count, uint32_t planes,
-                             const uint32_t *list, uint32_t listed)
+static occ_relative_box relative_node(const occ_frame *frame, const occ_node *node)
 {
-    uint32_t begin = frame->candidates.count;
-    uint32_t *copy = occ_array_extend(frame->hooks, &frame->candidates, listed);
-    if (!copy) return OCC_ERROR_OUT_OF_MEMORY;
-    for (uint32_t i = 0; i < listed; i++)
-        copy[i] = list[i];
-    frame->candidates.count += listed;
-    frame->stats.tested += count;
-    for (uint32_t i = 0; i < count; i += OCC_RANGE_OBJECTS) {
+    const occ_eye *eye = &frame->camera.constants;
+    occ_relative_box box = {{0}, {0}, 0.0f};
+    for (int j = 0; j < 3; j++) {
+        float min = OCC_RELATIVE(node->min[j], eye->high[j], eye->low[j]);
+        float max = OCC_RELATIVE(node->max[j], eye->high[j], eye->low[j]);
+        box.t[j] = OCC_MIDDLE(min, max);
+        box.a[4 * j] = OCC_HALF(min, max);
+    }
+    box.e = occ_box_slack(&box, eye->slack_floor);
+    return box;
+}
+
+static float nearness_of_node(const occ_frame *frame, const occ_relative_box *box)
+{
+    float h[3] = {box->a[0], box->a[4], box->a[8]};
+    return occ_frame_nearness(frame, box->t, h);
+}
+
+static bool is_fused(const occ_frame *frame)
+{
+    return frame->knobs.method == OCC_METHOD_FUSED;
+}
+
+// Where a box is on the screen.
+static occ_projection project(const occ_frame *frame, const occ_relative_box *box)
+{
+    const occ_camera *camera = &frame->camera;
+    occ_projection seen;
+    frame->lanes->project(camera->screen, camera->screen_w, box, &seen);
+    return seen;
+}
+
+// Whether the occluders so far hide a box; those that objects [first, first + rows) own do not.
+static bool is_hidden(const occ_frame *frame, const occ_relative_box *box,
+                      const occ_projection *seen, uint32_t planes, uint32_t first, uint32_t rows)
+{
+    occ_question question = {box, seen, planes, first, rows, INFINITY, is_fused(frame)};
+    occ_shadow_set set = occ_occluders_so_far(frame);
+    return set.count && frame->lanes->hide(&question, &set, &frame->camera.constants);
+}
+
+// --- what stays open -----------------------------------------------------------------------------
+
+static occ_result leave_open(occ_frame *frame, const occ_walk_entry *entry, uint32_t first,
+                             uint32_t count)
+{
+    open_range *range = occ_array_push(frame->hooks, &frame->open);
+    if (!range) return OCC_ERROR_OUT_OF_MEMORY;
+    *range = (open_range){first, count, entry->index, entry->what & OCC_WALK_PLANES};
+    return OCC_SUCCESS;
+}
+
+// Cuts a run of rows into ranges that share the candidates from `begin` on.
+static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t begin)
+{
+    uint32_t listed = frame->candidates.count - begin;
+    frame->stats.tested += open->count;
+    for (uint32_t i = 0; i < open->count; i += OCC_RANGE_OBJECTS) {
         occ_range *range = occ_array_push(frame->hooks, &frame->ranges);
         if (!range) return OCC_ERROR_OUT_OF_MEMORY;
-        uint32_t left = count - i < OCC_RANGE_OBJECTS ? count - i : OCC_RANGE_OBJECTS;
-        *range = (occ_range){first + i, left,   begin,
-                             listed,    planes, frame->knobs.method == OCC_METHOD_FUSED};
+        uint32_t left = open->count - i < OCC_RANGE_OBJECTS ? open->count - i : OCC_RANGE_OBJECTS;
+        *range = (occ_range){open->first + i, left, begin, listed, open->planes, is_fused(frame)};
     }
     return OCC_SUCCESS;
 }
 
-// Keeps the candidates that touch child c. Returns how many.
-static uint32_t pick(const uint32_t *list, uint32_t count, const uint8_t *touched, uint32_t c,
-                     uint32_t *picked)
+// Lists the candidates of a range: the occluders that are near enough and touch it.
+static occ_result close_range(occ_frame *frame, const open_range *open)
 {
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        picked[n] = list[i];
-        n += touched[i] >> c & 1u;
+    const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + open->node;
+    occ_relative_box box = relative_node(frame, node);
+    occ_projection seen = project(frame, &box);
+    float h[3] = {box.a[0], box.a[4], box.a[8]};
+    occ_shadow_set set = occ_occluders_so_far(frame);
+    uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, (size_t)set.count + 1);
+    if (!list) return OCC_ERROR_OUT_OF_MEMORY;
+    occ_question question = {&box,        &seen,       open->planes,
+                             open->first, open->count, occ_frame_farness(frame, box.t, h),
+                             false};
+    uint32_t begin = frame->candidates.count, count;
+    if (frame->lanes->gather(&question, &set, list, &count)) {
+        frame->stats.walk_hidden += open->count;
+        return OCC_SUCCESS;
     }
-    return n;
+    frame->candidates.count += count;
+    return add_ranges(frame, open, begin);
 }
 
-// An open child goes on the stack, or to the ranges if it is a leaf or small enough.
-static occ_result pass_on(occ_frame *frame, const occ_siblings *siblings, uint32_t c,
-                          const uint32_t *list, uint32_t count)
+// --- occluders -----------------------------------------------------------------------------------
+
+// Pushes occluders [first, first + count) of the order that are large enough.
+static occ_result push_occluders(occ_frame *frame, uint32_t planes, uint32_t first, uint32_t count)
+{
+    const uint32_t *order = frame->scene->occluder_order.data;
+    const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
+    const occ_eye *eye = &frame->camera.constants;
+    for (uint32_t i = first; i < first + count; i++)
+        __builtin_prefetch(&boxes[order[i]]);
+    for (uint32_t i = first; i < first + count; i++) {
+        occ_relative_box box = occ_frame_relative(frame, &boxes[order[i]]);
+        if (!occ_occluder_is_large(frame, &box)) continue;
+        if (occ_box_outside(&box, eye->plane[0], planes)) continue;
+        float h[3];
+        for (int j = 0; j < 3; j++)
+            h[j] = fabsf(box.a[j]) + fabsf(box.a[3 + j]) + fabsf(box.a[6 + j]);
+        occ_walk_entry entry = {occ_frame_nearness(frame, box.t, h), order[i],
+                                OCC_WALK_OCCLUDER | planes};
+        if (occ_heap_push(frame->hooks, &frame->heap, &entry)) return OCC_ERROR_OUT_OF_MEMORY;
+    }
+    return OCC_SUCCESS;
+}
+
+static occ_result visit_occluder(occ_frame *frame, const occ_walk_entry *entry)
+{
+    if (frame->shadows.count >= frame->knobs.max_occluders) return OCC_SUCCESS;
+    frame->stats.occluders_tested++;
+    const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
+    occ_relative_box box = occ_frame_relative(frame, &boxes[entry->index]);
+    occ_projection seen = project(frame, &box);
+    if (is_hidden(frame, &box, &seen, entry->what & OCC_WALK_PLANES, 0, 0)) return OCC_SUCCESS;
+    return occ_occluders_add(frame, entry->index, entry->key, &seen);
+}
+
+// --- nodes ---------------------------------------------------------------------------------------
+
+static occ_result push_child(occ_frame *frame, const occ_siblings *siblings, uint32_t c)
 {
     const occ_node *nodes = occ_octree_nodes(&frame->scene->object_tree);
     const occ_node *child = &siblings->nodes[c];
-    const uint8_t *touched = frame->touched.data;
-    uint32_t *picked = occ_array_extend(frame->hooks, &frame->pool, (size_t)count + 1);
-    if (!picked) return OCC_ERROR_OUT_OF_MEMORY;
-    uint32_t kept = pick(list, count, touched, c, picked);
-    if (!child->children || child->count <= frame->knobs.grain) {
-        return leave_open(frame, child->first, child->count, siblings->frustum_of[c], picked, kept);
-    }
-    walk_entry *entry = occ_array_push(frame->hooks, &frame->stack);
-    if (!entry) return OCC_ERROR_OUT_OF_MEMORY;
-    *entry =
-        (walk_entry){(uint32_t)(child - nodes), siblings->frustum_of[c], frame->pool.count, kept};
-    frame->pool.count += kept;
-    return OCC_SUCCESS;
+    occ_relative_box box = relative_node(frame, child);
+    occ_walk_entry entry = {nearness_of_node(frame, &box), (uint32_t)(child - nodes),
+                            OCC_WALK_NODE | siblings->frustum_of[c]};
+    return occ_heap_push(frame->hooks, &frame->heap, &entry);
 }
 
-static occ_result test_siblings(occ_frame *frame, occ_siblings *siblings, const uint32_t *list,
-                                uint32_t count)
+static occ_result open_children(occ_frame *frame, const occ_walk_entry *entry)
 {
-    const occ_eye *eye = &frame->camera.constants;
-    occ_candidates candidates = {frame->shadows.data, frame->wide.data, list, count};
-    frame->touched.count = 0;
-    uint8_t *touched = occ_array_extend(frame->hooks, &frame->touched, (size_t)count + 1);
-    if (!touched) return OCC_ERROR_OUT_OF_MEMORY;
-    frame->lanes->cut(siblings, eye);
-    frame->lanes->shade(siblings, eye, &candidates, touched);
-    frame->stats.nodes_tested += siblings->count;
-    for (uint32_t c = 0; c < siblings->count; c++) {
-        if (siblings->outside >> c & 1u) {
-            frame->stats.walk_outside += siblings->nodes[c].count;
-        } else if (siblings->hidden >> c & 1u) {
-            frame->stats.walk_hidden += siblings->nodes[c].count;
-        } else if (pass_on(frame, siblings, c, list, count)) {
+    const occ_octree *tree = &frame->scene->object_tree;
+    const occ_node *node = occ_octree_nodes(tree) + entry->index;
+    occ_siblings siblings = {.nodes = occ_octree_nodes(tree) + node->child,
+                             .count = node->children,
+                             .frustum = entry->what & OCC_WALK_PLANES};
+    frame->lanes->cut(&siblings, &frame->camera.constants);
+    frame->stats.nodes_tested += siblings.count;
+    for (uint32_t c = 0; c < siblings.count; c++) {
+        if (siblings.outside >> c & 1u) {
+            frame->stats.walk_outside += siblings.nodes[c].count;
+        } else if (push_child(frame, &siblings, c)) {
             return OCC_ERROR_OUT_OF_MEMORY;
         }
     }
     return OCC_SUCCESS;
 }
 
-// Takes a node from the stack: its own objects are open, its children are tested.
-static occ_result descend(occ_frame *frame)
+// The rows of a node that are tested as they are: its own, or all if it is small enough.
+static occ_result open_node(occ_frame *frame, const occ_walk_entry *entry)
 {
-    walk_entry entry = ((walk_entry *)frame->stack.data)[--frame->stack.count];
     const occ_octree *tree = &frame->scene->object_tree;
-    const occ_node *node = occ_octree_nodes(tree) + entry.node;
-    frame->inherited.count = 0;
-    uint32_t *list = occ_array_extend(frame->hooks, &frame->inherited, (size_t)entry.count + 1);
-    if (!list) return OCC_ERROR_OUT_OF_MEMORY;
-    const uint32_t *pooled = (const uint32_t *)frame->pool.data + entry.list;
-    for (uint32_t i = 0; i < entry.count; i++)
-        list[i] = pooled[i];
-    frame->pool.count = entry.list; // the entry on top of the stack has the last list of the pool
-    uint32_t own = occ_node_own(tree, node);
-    occ_result result = OCC_SUCCESS;
-    if (own) result = leave_open(frame, node->first, own, entry.frustum, list, entry.count);
-    if (result) return result;
-    occ_siblings siblings = {.nodes = occ_octree_nodes(tree) + node->child,
-                             .count = node->children,
-                             .frustum = entry.frustum};
-    return test_siblings(frame, &siblings, list, entry.count);
+    const occ_node *nodes = occ_octree_nodes(tree), *node = &nodes[entry->index];
+    bool whole = !node->children || node->count <= frame->knobs.grain;
+    uint32_t rows = whole ? node->count : occ_node_own(tree, node);
+    if (rows && leave_open(frame, entry, node->first, rows)) return OCC_ERROR_OUT_OF_MEMORY;
+    if (rows && frame->scene->attached.count) {
+        const occ_attached *attached = frame->scene->attached.data;
+        uint32_t first = attached[entry->index].first, count = attached[entry->index].count;
+        if (!whole) count = attached[node->child].first - first;
+        if (count && occ_occluder_may_be_large(frame, attached[entry->index].reach, entry->key) &&
+            push_occluders(frame, entry->what & OCC_WALK_PLANES, first, count)) {
+            return OCC_ERROR_OUT_OF_MEMORY;
+        }
+    }
+    return whole ? OCC_SUCCESS : open_children(frame, entry);
 }
 
-// The list of all shadows: 0, 1, 2, ...
-static uint32_t *all_shadows(occ_frame *frame)
+static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 {
-    frame->inherited.count = 0;
-    uint32_t count = frame->shadows.count;
-    uint32_t *list = occ_array_extend(frame->hooks, &frame->inherited, (size_t)count + 1);
-    for (uint32_t i = 0; list && i < count; i++)
+    const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
+    occ_relative_box box = relative_node(frame, node);
+    occ_projection seen = project(frame, &box);
+    uint32_t planes = entry->what & OCC_WALK_PLANES;
+    if (is_hidden(frame, &box, &seen, planes, node->first, node->count)) {
+        frame->stats.walk_hidden += node->count;
+        return OCC_SUCCESS;
+    }
+    return open_node(frame, entry);
+}
+
+static occ_result push_free(occ_frame *frame, uint32_t index, uint32_t planes)
+{
+    const occ_node *node = occ_octree_nodes(&frame->scene->occluder_tree) + index;
+    occ_relative_box box = relative_node(frame, node);
+    occ_walk_entry entry = {nearness_of_node(frame, &box), index, OCC_WALK_FREE | planes};
+    float reach = ((const float *)frame->scene->reach.data)[index];
+    if (!occ_occluder_may_be_large(frame, reach, entry.key)) return OCC_SUCCESS;
+    return occ_heap_push(frame->hooks, &frame->heap, &entry);
+}
+
+// A node of the occluders that nobody owns.
+static occ_result visit_free(occ_frame *frame, const occ_walk_entry *entry)
+{
+    const occ_octree *tree = &frame->scene->occluder_tree;
+    const occ_node *node = occ_octree_nodes(tree) + entry->index;
+    occ_relative_box box = relative_node(frame, node);
+    occ_projection seen = project(frame, &box);
+    uint32_t planes = entry->what & OCC_WALK_PLANES;
+    frame->stats.nodes_tested++;
+    if (is_hidden(frame, &box, &seen, planes, 0, 0)) return OCC_SUCCESS;
+    uint32_t first = frame->scene->attached_count + node->first;
+    if (push_occluders(frame, planes, first, occ_node_own(tree, node))) {
+        return OCC_ERROR_OUT_OF_MEMORY;
+    }
+    if (!node->children) return OCC_SUCCESS;
+    occ_siblings siblings = {
+        .nodes = occ_octree_nodes(tree) + node->child, .count = node->children, .frustum = planes};
+    frame->lanes->cut(&siblings, &frame->camera.constants);
+    for (uint32_t c = 0; c < siblings.count; c++) {
+        if (siblings.outside >> c & 1u) continue;
+        if (push_free(frame, node->child + c, siblings.frustum_of[c])) {
+            return OCC_ERROR_OUT_OF_MEMORY;
+        }
+    }
+    return OCC_SUCCESS;
+}
+
+// --- the walk ------------------------------------------------------------------------------------
+
+static occ_result push_roots(occ_frame *frame)
+{
+    const occ_camera *camera = &frame->camera;
+    if (frame->knobs.method != OCC_METHOD_FRUSTUM && frame->scene->occluder_tree.nodes.count) {
+        occ_siblings root = {.nodes = occ_octree_nodes(&frame->scene->occluder_tree),
+                             .count = 1,
+                             .frustum = camera->planes};
+        frame->lanes->cut(&root, &camera->constants);
+        if (!root.outside && push_free(frame, 0, root.frustum_of[0])) {
+            return OCC_ERROR_OUT_OF_MEMORY;
+        }
+    }
+    if (!frame->scene->boxes.count) return OCC_SUCCESS;
+    occ_siblings root = {.nodes = occ_octree_nodes(&frame->scene->object_tree),
+                         .count = 1,
+                         .frustum = camera->planes};
+    frame->lanes->cut(&root, &camera->constants);
+    frame->stats.nodes_tested++;
+    if (root.outside) {
+        frame->stats.walk_outside += root.nodes->count;
+        return OCC_SUCCESS;
+    }
+    occ_walk_entry entry = {.what = OCC_WALK_NODE | root.frustum_of[0]};
+    return occ_heap_push(frame->hooks, &frame->heap, &entry);
+}
+
+static occ_result visit(occ_frame *frame, const occ_walk_entry *entry)
+{
+    if (entry->what & OCC_WALK_OCCLUDER) return visit_occluder(frame, entry);
+    return entry->what & OCC_WALK_FREE ? visit_free(frame, entry) : visit_node(frame, entry);
+}
+
+// Every occluder, and every object open.
+static occ_result take_all(occ_frame *frame)
+{
+    const uint32_t *order = frame->scene->occluder_order.data;
+    const occ_projection anywhere = {.min = {-INFINITY, -INFINITY}, .max = {INFINITY, INFINITY}};
+    for (uint32_t i = 0; i < frame->scene->occluder_order.count; i++)
+        if (occ_occluders_add(frame, order[i], 0.0f, &anywhere)) return OCC_ERROR_OUT_OF_MEMORY;
+    frame->stats.occluders_tested = frame->scene->occluder_order.count;
+    uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, frame->shadows.count + 1);
+    if (!list) return OCC_ERROR_OUT_OF_MEMORY;
+    for (uint32_t i = 0; i < frame->shadows.count; i++)
         list[i] = i;
-    return list;
+    frame->candidates.count = frame->shadows.count;
+    open_range all = {.count = frame->scene->boxes.count, .planes = frame->camera.planes};
+    return add_ranges(frame, &all, 0);
 }
 
 occ_result occ_walk(occ_frame *frame)
 {
-    frame->stack.element = sizeof(walk_entry);
-    frame->stack.count = frame->pool.count = frame->ranges.count = frame->candidates.count = 0;
-    const uint32_t *list = all_shadows(frame);
-    if (!list) return OCC_ERROR_OUT_OF_MEMORY;
+    frame->heap.element = sizeof(occ_walk_entry);
+    frame->open.element = sizeof(open_range);
+    frame->heap.count = frame->open.count = 0;
+    frame->ranges.count = frame->candidates.count = 0;
+    occ_occluders_clear(frame);
     occ_result result = OCC_SUCCESS;
     if (frame->knobs.method == OCC_METHOD_PAIRWISE) {
-        result = leave_open(frame, 0, frame->scene->boxes.count, frame->camera.planes, list,
-                            frame->shadows.count);
-    } else if (frame->scene->boxes.count) {
-        occ_siblings root = {.nodes = occ_octree_nodes(&frame->scene->object_tree),
-                             .count = 1,
-                             .frustum = frame->camera.planes};
-        result = test_siblings(frame, &root, list, frame->shadows.count);
-        while (!result && frame->stack.count)
-            result = descend(frame);
+        result = take_all(frame);
+    } else {
+        result = push_roots(frame);
+        while (!result && frame->heap.count) {
+            occ_walk_entry entry = occ_heap_pop(&frame->heap);
+            result = visit(frame, &entry);
+        }
+        const open_range *open = frame->open.data;
+        for (uint32_t i = 0; i < frame->open.count && !result; i++)
+            result = close_range(frame, &open[i]);
     }
+    frame->stats.occluders_used = frame->shadows.count;
     frame->stats.ranges = frame->ranges.count;
     return result;
 }

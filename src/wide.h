@@ -107,4 +107,29 @@ static inline float largest_of_wide(fwide x, uint32_t lanes)
 #endif
 }
 
+// The least and the largest of the first `count` floats of an array of sixteen.
+static inline float least_of(const float *x, uint32_t count)
+{
+#if OCC_WIDTH == 16
+    return _mm512_mask_reduce_min_ps((__mmask16)((1u << count) - 1u), _mm512_loadu_ps(x));
+#else
+    float least = x[0];
+    for (uint32_t i = 1; i < count; i++)
+        least = x[i] < least ? x[i] : least;
+    return least;
+#endif
+}
+
+static inline float most_of(const float *x, uint32_t count)
+{
+#if OCC_WIDTH == 16
+    return _mm512_mask_reduce_max_ps((__mmask16)((1u << count) - 1u), _mm512_loadu_ps(x));
+#else
+    float most = x[0];
+    for (uint32_t i = 1; i < count; i++)
+        most = x[i] > most ? x[i] : most;
+    return most;
+#endif
+}
+
 #endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The set of occluders that a frame has found so far.
+#include "frame.h"
+
+#include "shadow.h"
+#include "vector.h"
+
+void occ_occluders_clear(occ_frame *frame)
+{
+    frame->shadows.count = frame->wide.count = frame->sources.count = frame->rects.count = 0;
+}
+
+// Its projected area over its squared distance, or over the area of an orthographic view, reaches
+// the knob.
+bool occ_occluder_is_large(const occ_frame *frame, const occ_relative_box *box)
+{
+    const occ_camera *camera = &frame->camera;
+    double c[3], a[3][3], shown = 0.0;
+    for (int j = 0; j < 3; j++) {
+        c[j] = camera->orthographic ? camera->toward[j] : (double)box->t[j];
+        for (int k = 0; k < 3; k++)
+            a[k][j] = (double)box->a[3 * k + j];
+    }
+    for (int k = 0; k < 3; k++) {
+        double n[3];
+        occ_cross(a[k], a[(k + 1) % 3], n);
+        shown += 4.0 * fabs(occ_dot(n, c));
+    }
+    double squared = occ_dot(c, c), length = sqrt(squared);
+    double least = (double)frame->knobs.min_area;
+    if (camera->orthographic) return shown >= least * camera->view_area * length;
+    return shown >= least * squared * length;
+}
+
+bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)
+{
+    const occ_camera *camera = &frame->camera;
+    double area = camera->orthographic ? camera->view_area : (double)key * (1.0 - 1e-5);
+    return (double)reach >= (double)frame->knobs.min_area * area;
+}
+
+static void put_rect(occ_rect_block *block, uint32_t lane, const occ_projection *seen, float key)
+{
+    for (int j = 0; j < 2; j++) {
+        block->min[j][lane] = seen->min[j];
+        block->max[j][lane] = seen->max[j];
+    }
+    block->key[lane] = key;
+}
+
+occ_result occ_occluders_add(occ_frame *frame, uint32_t slot, float key, const occ_projection *seen)
+{
+    const occ_scene *scene = frame->scene;
+    uint32_t owner = scene->occluders.value[slot], lane = frame->shadows.count % OCC_SHADOW_LANES;
+    uint32_t row = owner == OCC_NO_SLOT ? OCC_NOBODY : scene->objects.value[owner];
+    occ_shadow *shadow = occ_array_extend(frame->hooks, &frame->shadows, 1);
+    occ_wide_shadow *wide = occ_array_extend(frame->hooks, &frame->wide, 1);
+    occ_occluder *source = occ_array_extend(frame->hooks, &frame->sources, 1);
+    if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
+    if (!occ_array_extend(frame->hooks, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
+    const occ_box *box = &occ_scene_occluder_boxes(scene)[slot];
+    if (!occ_shadow_init(shadow, &frame->camera, box, row)) return OCC_SUCCESS;
+    occ_wide_shadow_set(wide, shadow);
+    *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
+    if (!lane)
+        ((occ_rect_block *)frame->rects.data)[frame->rects.count++] =
+            (occ_rect_block){.key = {0.0f}};
+    put_rect((occ_rect_block *)frame->rects.data + frame->rects.count - 1, lane, seen, key);
+    frame->shadows.count++;
+    frame->wide.count++;
+    frame->sources.count++;
+    return OCC_SUCCESS;
+}
+
+occ_shadow_set occ_occluders_so_far(const occ_frame *frame)
+{
+    return (occ_shadow_set){frame->shadows.data, frame->wide.data, frame->rects.data,
+                            frame->shadows.count};
+}
