@@ -8,8 +8,7 @@
 
 #include "outline.h"
 
-#define VERTEX_LANES  16u
-#define VERTEX_GROUPS ((OCC_PIECE_VERTICES + OCC_WIDTH - 1) / OCC_WIDTH)
+#define VERTEX_LANES 16u
 
 // Vertices beyond `count` are whatever they are.
 typedef struct piece_lanes {
@@ -22,41 +21,40 @@ static inline occ_vertex vertex_of(const piece_lanes *piece, uint32_t i)
     return (occ_vertex){piece->x[i], piece->y[i], piece->z[i], piece->w[i], piece->e[i]};
 }
 
-static inline void store_wide(float *to, fwide x)
-{
-    memcpy(to, &x, sizeof x);
-}
-
-// n.v + d w of `OCC_WIDTH` vertices from `l` on, and the least that counts as inside.
-static inline fwide vertices_at(const piece_lanes *piece, uint32_t l, const occ_cutter *n,
-                                fwide *least)
-{
-    fwide dw = n->d * load_wide(piece->w + l);
-    *least = OCC_VERTEX_LEAST(load_wide(piece->e + l), dw);
-    return OCC_PLANE_AT(n->x, n->y, n->z, dw, load_wide(piece->x + l), load_wide(piece->y + l),
-                        load_wide(piece->z + l));
-}
-
 static inline uint32_t lanes_below(uint32_t count)
 {
     return (1u << count) - 1u;
 }
 
-// The vertices inside a plane, each for itself.
-static inline uint32_t vertices_inside(const piece_lanes *piece, const occ_cutter *n)
+// n.v + d w of the vertices from `l` on, as many as there are lanes, and the least that is inside.
+static inline fnode vertices_at(const piece_lanes *piece, uint32_t l, const occ_cutter *n,
+                                fnode *least)
 {
-    uint32_t inside = 0;
-    for (uint32_t g = 0; g < VERTEX_GROUPS; g++) {
-        fwide least, at = vertices_at(piece, g * OCC_WIDTH, n, &least);
-        inside |= bits_wide(at > least) << g * OCC_WIDTH;
-    }
-    return inside & lanes_below(piece->count);
+    fnode dw = n->d * load_node(piece->w + l);
+    *least = OCC_VERTEX_LEAST(load_node(piece->e + l), dw);
+    return OCC_PLANE_AT(n->x, n->y, n->z, dw, load_node(piece->x + l), load_node(piece->y + l),
+                        load_node(piece->z + l));
 }
 
 #if OCC_WIDTH == 16
-static inline fwide put_in(fwide x, float value, uint32_t lane)
+// As take(), where all fits into eight lanes.
+static inline void take_eight(piece_lanes *part, const piece_lanes *piece, uint32_t first,
+                              uint32_t n, const occ_vertex *c, const occ_vertex *d)
 {
-    return (fwide)_mm512_mask_broadcastss_ps((__m512)x, (__mmask16)(1u << lane), _mm_set_ss(value));
+    const __m256i iota = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    __m256i count = _mm256_set1_epi32((int)piece->count);
+    __m256i index = _mm256_add_epi32(iota, _mm256_set1_epi32((int)first - 1));
+    __mmask8 over = _mm256_cmpge_epi32_mask(index, count), end = (__mmask8)(1u << (n + 1));
+    index = _mm256_mask_sub_epi32(index, over, index, count);
+    const float *from[5] = {piece->x, piece->y, piece->z, piece->w, piece->e};
+    float *to[5] = {part->x, part->y, part->z, part->w, part->e};
+    const float *start = &c->x, *last = &d->x;
+    for (uint32_t m = 0; m < 5; m++) {
+        __m256 x = _mm256_permutexvar_ps(index, _mm256_loadu_ps(from[m]));
+        x = _mm256_mask_broadcastss_ps(x, 1, _mm_load_ss(start + m));
+        x = _mm256_mask_broadcastss_ps(x, end, _mm_load_ss(last + m));
+        _mm256_storeu_ps(to[m], x);
+    }
 }
 #endif
 
@@ -64,21 +62,14 @@ static inline fwide put_in(fwide x, float value, uint32_t lane)
 static inline void take(piece_lanes *part, const piece_lanes *piece, uint32_t first, uint32_t n,
                         const occ_vertex *c, const occ_vertex *d)
 {
+    part->count = n + 2;
+    part->cuts = piece->cuts + 1;
 #if OCC_WIDTH == 16
-    static const iwide iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    iwide index = iota + ((int32_t)first - 1);
-    int32_t count = (int32_t)piece->count;
-    index -= (index >= count) & count;
-#define OCC_TAKE(m)                                                                                \
-    store_wide(part->m,                                                                            \
-               put_in(put_in(permute_wide(load_wide(piece->m), index), c->m, 0), d->m, n + 1))
-    OCC_TAKE(x);
-    OCC_TAKE(y);
-    OCC_TAKE(z);
-    OCC_TAKE(w);
-    OCC_TAKE(e);
-#undef OCC_TAKE
-#else
+    if (piece->count <= 8 && n + 2 <= 8) {
+        take_eight(part, piece, first, n, c, d);
+        return;
+    }
+#endif
     const float *from[5] = {piece->x, piece->y, piece->z, piece->w, piece->e};
     float *to[5] = {part->x, part->y, part->z, part->w, part->e};
     const float start[5] = {c->x, c->y, c->z, c->w, c->e}, end[5] = {d->x, d->y, d->z, d->w, d->e};
@@ -91,9 +82,6 @@ static inline void take(piece_lanes *part, const piece_lanes *piece, uint32_t fi
             to[m][1 + i] = from[m][i - head];
         to[m][1 + n] = end[m];
     }
-#endif
-    part->count = n + 2;
-    part->cuts = piece->cuts + 1;
 }
 
 // As occ_piece_cut(): `piece` becomes what is inside.
@@ -101,15 +89,15 @@ static inline int cut_piece(piece_lanes *piece, const occ_cutter *n, piece_lanes
 {
     float at[VERTEX_LANES], level = 0.0f;
     uint32_t count = piece->count, all = lanes_below(count), in = 0;
-    fwide value[VERTEX_GROUPS];
-    for (uint32_t g = 0; g < VERTEX_GROUPS; g++) {
-        fwide least;
-        value[g] = vertices_at(piece, g * OCC_WIDTH, n, &least);
-        float most = largest_of_wide(2.0f * least, all >> g * OCC_WIDTH);
+    for (uint32_t l = 0; l < count; l += OCC_NODE_WIDTH) {
+        fnode least, value = vertices_at(piece, l, n, &least);
+        uint32_t left = count - l < OCC_NODE_WIDTH ? count - l : OCC_NODE_WIDTH;
+        float most = 2.0f * largest_of_node(least, left);
+        store_node(at + l, value);
         if (most > level) level = most;
     }
-    for (uint32_t g = 0; g < VERTEX_GROUPS; g++)
-        in |= bits_wide(value[g] > level) << g * OCC_WIDTH;
+    for (uint32_t l = 0; l < count; l += OCC_NODE_WIDTH)
+        in |= above_node(load_node(at + l), splat_node(level)) << l;
     in &= all;
     if (!in) return OCC_CUT_OUTSIDE;
     if (in == all) return OCC_CUT_INSIDE;
@@ -122,8 +110,6 @@ static inline int cut_piece(piece_lanes *piece, const occ_cutter *n, piece_lanes
     }
     uint32_t first = (uint32_t)__builtin_ctz(entries), last = (uint32_t)__builtin_ctz(exits);
     uint32_t enter = first ? first - 1 : count - 1, leave = last ? last - 1 : count - 1;
-    for (uint32_t g = 0; g < VERTEX_GROUPS; g++)
-        store_wide(at + g * OCC_WIDTH, value[g]);
     occ_vertex a = vertex_of(piece, first), b = vertex_of(piece, enter), c, d;
     occ_vertex p = vertex_of(piece, leave), q = vertex_of(piece, last);
     if (!occ_vertex_between(&a, at[first], &b, at[enter], level, n, &c) ||
@@ -136,36 +122,42 @@ static inline int cut_piece(piece_lanes *piece, const occ_cutter *n, piece_lanes
     return OCC_CUT_TWO;
 }
 
-// As occ_outline_corner() for all corners of polygon i of the outline.
+// The corners of a box whose signs are in `codes`: bit k is set where it is at -axis[k].
+static inline void corners_of(const occ_relative_box *box, inode codes, fnode *x, fnode *y,
+                              fnode *z)
+{
+    const float *t = box->t, *a = box->a;
+    const inode one = {0}, bit = one - 0x7fffffff - 1;
+    fnode s0 = (fnode)((codes << 31 & bit) | 0x3f800000);
+    fnode s1 = (fnode)((codes << 30 & bit) | 0x3f800000);
+    fnode s2 = (fnode)((codes << 29 & bit) | 0x3f800000);
+    *x = OCC_CORNER(t[0], s0 * a[0], s1 * a[3], s2 * a[6]);
+    *y = OCC_CORNER(t[1], s0 * a[1], s1 * a[4], s2 * a[7]);
+    *z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
+}
+
+// The corners of polygon i of the outline: as occ_outline_corner() for each.
 static inline bool outline_piece(piece_lanes *piece, const occ_outline *outline, uint32_t i,
                                  const occ_relative_box *box)
 {
-    const float *t = box->t, *a = box->a;
-    uint32_t corner[VERTEX_LANES] = {0};
+    uint32_t corner[VERTEX_LANES] = {0}, good = 0;
     memcpy(corner, outline->corner[i], sizeof outline->corner[i]);
-    uint32_t good = 0;
-    for (uint32_t g = 0; g * OCC_WIDTH < outline->corners; g++) {
-        iwide signs;
-        memcpy(&signs, corner + g * OCC_WIDTH, sizeof signs);
-        const iwide one = {0}, bit = one - 0x7fffffff - 1;
-        fwide s0 = (fwide)((signs << 31 & bit) | 0x3f800000);
-        fwide s1 = (fwide)((signs << 30 & bit) | 0x3f800000);
-        fwide s2 = (fwide)((signs << 29 & bit) | 0x3f800000);
-        fwide x = OCC_CORNER(t[0], s0 * a[0], s1 * a[3], s2 * a[6]);
-        fwide y = OCC_CORNER(t[1], s0 * a[1], s1 * a[4], s2 * a[7]);
-        fwide z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
-        fwide most = abs_wide(x);
-        most = select_wide(abs_wide(y) > most, abs_wide(y), most);
-        most = select_wide(abs_wide(z) > most, abs_wide(z), most);
-        iwide exponent = (iwide)most >> 23;
-        fwide scale = (fwide)((253 - exponent) << 23), e = scale * box->e;
-        good |= bits_wide((exponent >= 24) & (exponent <= 230) & (e < OCC_VERTEX_WORST))
-                << g * OCC_WIDTH;
-        store_wide(piece->x + g * OCC_WIDTH, x * scale);
-        store_wide(piece->y + g * OCC_WIDTH, y * scale);
-        store_wide(piece->z + g * OCC_WIDTH, z * scale);
-        store_wide(piece->w + g * OCC_WIDTH, scale);
-        store_wide(piece->e + g * OCC_WIDTH, e);
+    for (uint32_t l = 0; l < outline->corners; l += OCC_NODE_WIDTH) {
+        inode codes;
+        fnode x, y, z;
+        memcpy(&codes, corner + l, sizeof codes);
+        corners_of(box, codes, &x, &y, &z);
+        fnode most = OCC_FABS(x), next = OCC_FABS(y), last = OCC_FABS(z);
+        most = select_node(next > most, next, most);
+        most = select_node(last > most, last, most);
+        inode exponent = (inode)most >> 23;
+        fnode scale = (fnode)((253 - exponent) << 23), e = scale * box->e;
+        good |= bits_node((exponent >= 24) & (exponent <= 230) & (e < OCC_VERTEX_WORST)) << l;
+        store_node(piece->x + l, x * scale);
+        store_node(piece->y + l, y * scale);
+        store_node(piece->z + l, z * scale);
+        store_node(piece->w + l, scale);
+        store_node(piece->e + l, e);
     }
     piece->count = outline->corners;
     piece->cuts = 0;

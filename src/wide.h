@@ -80,56 +80,91 @@ static inline uint32_t bits_wide(iwide truth)
 #endif
 }
 
+// Bits of the lanes in which x > y.
+static inline uint32_t above_node(fnode x, fnode y)
+{
+#if OCC_WIDTH == 16
+    return _mm256_cmp_ps_mask((__m256)x, (__m256)y, _CMP_GT_OQ);
+#else
+    return bits_node(x > y);
+#endif
+}
+
+static inline uint32_t above_wide(fwide x, fwide y)
+{
+#if OCC_WIDTH == 16
+    return _mm512_cmp_ps_mask((__m512)x, (__m512)y, _CMP_GT_OQ);
+#else
+    return above_node(x, y);
+#endif
+}
+
+// Bits of the lanes in which x is not above y, NaN included.
+static inline uint32_t not_above_wide(fwide x, fwide y)
+{
+#if OCC_WIDTH == 16
+    return _mm512_cmp_ps_mask((__m512)x, (__m512)y, _CMP_NGT_UQ);
+#else
+    return above_wide(x, y) ^ ((1u << OCC_WIDTH) - 1u);
+#endif
+}
+
+static inline fnode splat_node(float x)
+{
+    return x - (fnode){0.0f};
+}
+
+static inline fwide splat_wide(float x)
+{
+    return x - (fwide){0.0f};
+}
+
+static inline fnode load_node(const float *from)
+{
+    fnode x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+
+static inline void store_node(float *to, fnode x)
+{
+    memcpy(to, &x, sizeof x);
+}
+
 // Where a comparison holds: x, else y.
-static inline fwide select_wide(iwide truth, fwide x, fwide y)
+static inline fnode select_node(inode truth, fnode x, fnode y)
 {
-    return (fwide)(((iwide)x & truth) | ((iwide)y & ~truth));
+    return (fnode)(((inode)x & truth) | ((inode)y & ~truth));
 }
 
-#if OCC_WIDTH == 16
-// Lane l of the result is lane index[l] of x.
-static inline fwide permute_wide(fwide x, iwide index)
+// The largest of the first `count` lanes (at least one) of positive numbers.
+static inline float largest_of_node(fnode x, uint32_t count)
 {
-    return (fwide)_mm512_permutexvar_ps((__m512i)index, (__m512)x);
-}
-#endif
-
-// The largest of the lanes that `lanes` names, or 0 if none is larger.
-static inline float largest_of_wide(fwide x, uint32_t lanes)
-{
-#if OCC_WIDTH == 16
-    return _mm512_reduce_max_ps(_mm512_maskz_mov_ps((__mmask16)lanes, (__m512)x));
-#else
-    float most = 0.0f;
-    for (uint32_t l = 0; l < OCC_WIDTH; l++)
-        if ((lanes >> l & 1u) && x[l] > most) most = x[l];
+    float lane[OCC_NODE_WIDTH], most;
+    store_node(lane, x);
+    most = lane[0];
+    for (uint32_t l = 1; l < count; l++)
+        most = lane[l] > most ? lane[l] : most;
     return most;
-#endif
 }
 
-// The least and the largest of the first `count` floats of an array of sixteen.
-static inline float least_of(const float *x, uint32_t count)
+// The least and the largest of eight floats.
+static inline float least_of_eight(const float *x)
 {
-#if OCC_WIDTH == 16
-    return _mm512_mask_reduce_min_ps((__mmask16)((1u << count) - 1u), _mm512_loadu_ps(x));
-#else
-    float least = x[0];
-    for (uint32_t i = 1; i < count; i++)
-        least = x[i] < least ? x[i] : least;
-    return least;
-#endif
+    float a[4];
+    for (uint32_t i = 0; i < 4; i++)
+        a[i] = x[i] < x[i + 4] ? x[i] : x[i + 4];
+    float b = a[0] < a[1] ? a[0] : a[1], c = a[2] < a[3] ? a[2] : a[3];
+    return b < c ? b : c;
 }
 
-static inline float most_of(const float *x, uint32_t count)
+static inline float largest_of_eight(const float *x)
 {
-#if OCC_WIDTH == 16
-    return _mm512_mask_reduce_max_ps((__mmask16)((1u << count) - 1u), _mm512_loadu_ps(x));
-#else
-    float most = x[0];
-    for (uint32_t i = 1; i < count; i++)
-        most = x[i] > most ? x[i] : most;
-    return most;
-#endif
+    float a[4];
+    for (uint32_t i = 0; i < 4; i++)
+        a[i] = x[i] > x[i + 4] ? x[i] : x[i + 4];
+    float b = a[0] > a[1] ? a[0] : a[1], c = a[2] > a[3] ? a[2] : a[3];
+    return b > c ? b : c;
 }
 
 #endif
