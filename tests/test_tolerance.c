@@ -17,6 +17,7 @@ enum { MOST = 24 };
 
 typedef struct stage {
     double tolerance, scale, eye[3];
+    occ_preset preset;
     occ_camera_desc camera;
     occ_box objects[MOST], boxes[MOST];
     world_occluder occluders[MOST];
@@ -41,7 +42,7 @@ static void cull_into(bool seen[MOST], const stage *s, const occ_scene *scene, o
                       occ_method method, double tolerance)
 {
     occ_cull_desc knobs = world_knobs(method);
-    knobs.preset = OCC_PRESET_THOROUGH;
+    knobs.preset = s->preset;
     knobs.tolerance = (float)tolerance;
     kit_cull(view, scene, &s->camera, &knobs);
     for (uint32_t i = 0; i < s->object_count; i++)
@@ -208,7 +209,8 @@ static void any_stage(kit_random *random, stage *s)
 {
     static const double tolerances[] = {1e-4, 1e-3, 1e-2, 0.1};
     *s = (stage){.tolerance = tolerances[kit_below(random, 4)],
-                 .scale = world_scale(random, 1e-3, 1e3)};
+                 .scale = world_scale(random, 1e-3, 1e3),
+                 .preset = (occ_preset)kit_below(random, 3)};
     double away = kit_below(random, 2) ? s->scale * world_scale(random, 0.1, 100) : 0.0, offset[3];
     world_direction(random, offset);
     float eye[3], target[3];
@@ -377,6 +379,41 @@ START_TEST(what_blades_hide_too_much_is_not_far_from_their_points)
 }
 END_TEST
 
+static void same_on(occ_view *other, make_stage *make, uint64_t seed, int count)
+{
+    occ_view *plain = world_view(OCC_BACKEND_PLAIN, 0);
+    kit_random random = {seed};
+    for (int i = 0; other && i < count; i++) {
+        stage s;
+        bool seen[2][MOST] = {{false}};
+        make(&random, &s);
+        occ_scene *scene = world_scene(s.objects, s.object_count, s.occluders, s.occluder_count, 4);
+        cull_into(seen[0], &s, scene, plain, OCC_METHOD_FUSED, s.tolerance);
+        cull_into(seen[1], &s, scene, other, OCC_METHOD_FUSED, s.tolerance);
+        KIT_CHECK(kit_same_bits(seen[0], seen[1], sizeof seen[0]), "world %d differs", i);
+        occ_scene_destroy(scene);
+    }
+    occ_view_destroy(plain);
+}
+
+START_TEST(openmp_tolerates_as_plain_does)
+{
+    occ_view *view = world_view(OCC_BACKEND_OPENMP, 2);
+    same_on(view, crowd, 94, WORLD_SHARE(1000));
+    same_on(view, panels, 95, WORLD_SHARE(1000));
+    occ_view_destroy(view);
+}
+END_TEST
+
+START_TEST(a_device_tolerates_as_plain_does)
+{
+    occ_view *view = world_view(OCC_BACKEND_OPENCL, 0);
+    same_on(view, crowd, 96, WORLD_SHARE(300));
+    same_on(view, panels, 97, WORLD_SHARE(300));
+    occ_view_destroy(view);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("tolerance");
@@ -385,5 +422,9 @@ int main(void)
     tcase_add_test(random, what_panels_hide_too_much_is_next_to_their_seams);
     tcase_add_test(random, what_blades_hide_too_much_is_not_far_from_their_points);
     suite_add_tcase(suite, random);
+    TCase *backends = tcase_create("backends");
+    tcase_add_test(backends, openmp_tolerates_as_plain_does);
+    tcase_add_test(backends, a_device_tolerates_as_plain_does);
+    suite_add_tcase(suite, backends);
     return test_run_suite(suite);
 }
