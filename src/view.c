@@ -101,6 +101,7 @@ static occ_result run_test(occ_view *view)
     occ_test_job job = {.scene = frame->scene,
                         .eye = &frame->camera.constants,
                         .shadows = frame->shadows.data,
+                        .wide = frame->wide.data,
                         .shadow_count = frame->shadows.count,
                         .ranges = frame->ranges.data,
                         .range_count = frame->ranges.count,

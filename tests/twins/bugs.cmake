@@ -102,7 +102,7 @@ occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
 set(own "if (shadow->owner == row) continue;")
 occ_plant(owner_scalar IN src/backend_plain.c REPLACE "${own}" BY "" COMPILE backend_plain.c)
 occ_caught_by(owner_scalar backend_edges host "plain one by one: ${decided_otherwise}")
-occ_plant(owner_lanes IN src/lanes.c REPLACE "hidden &= ~(1u << own)" BY "hidden &= ~0u" COMPILE lanes_plain)
+occ_plant(owner_lanes IN src/lanes.c REPLACE "centers &= ~(1u << own)" BY "centers &= ~0u" COMPILE lanes_plain)
 occ_caught_by(owner_lanes backend_edges host "openmp plain: ${decided_otherwise}")
 occ_plant(owner_node IN src/lanes.c REPLACE "& ~owners_among(siblings, shadow->owner)"
     BY "& ~(0u * owners_among(siblings, shadow->owner))" COMPILE lanes_plain)
@@ -141,13 +141,13 @@ endif()
 # --- what several hide together ------------------------------------------------------------------
 if(TARGET test_fusion)
     set(fused_too_much "world [0-9]+: object [0-9]+ is hidden, but it can be seen")
-    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "v->e + OCC_VERTEX_SLACK + " BY "-v->e - OCC_VERTEX_SLACK - "
+    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "((e) + OCC_VERTEX_SLACK + " BY "(-(e) - OCC_VERTEX_SLACK - "
         COMPILE backend_plain.c)
     occ_caught_by(fusion_without_bounds fusion random "${fused_too_much}")
     occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;"
         BY "(void)by_faces;" COMPILE backend_plain.c)
     occ_caught_by(fusion_in_front fusion random "${fused_too_much}")
-    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner != row) faces" BY "if (shadow->owner != row + 1000000) faces"
+    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner != row && occ" BY "if (shadow->owner != row + 1000000 && occ"
         COMPILE backend_plain.c)
     occ_caught_by(fusion_of_owners fusion random "${fused_too_much}")
     occ_plant(fusion_half_a_piece IN kernels/fusion.h REPLACE "if (cut == OCC_CUT_TWO) fusion->depth++;"
