@@ -206,8 +206,8 @@ START_TEST(stated_defaults_are_the_librarys)
 
     occ_cull_desc library;
     occ_hooks hooks;
-    const occ_allocator no_allocator = {NULL};
-    const occ_logger no_logger = {NULL};
+    static const occ_allocator no_allocator;
+    static const occ_logger no_logger;
     ck_assert_int_eq(occ_hooks_init(&hooks, &no_allocator, &no_logger), OCC_SUCCESS);
     ck_assert_int_eq(occ_knobs_init(&library, NULL, &hooks), OCC_SUCCESS);
     ck_assert(kit_same_bits(&library, usual, sizeof library));

@@ -73,15 +73,17 @@ static uint32_t count_seen(uint32_t max_splits, bool seen[OBJECTS])
     world_occluder panels[ACROSS * ACROSS];
     for (int i = 0; i < ACROSS * ACROSS; i++) {
         occ_box box = {{0}, {{0}}};
-        box.center[0] = 2.0f * (float)(i % ACROSS - ACROSS / 2);
-        box.center[1] = 2.0f * (float)(i / ACROSS - ACROSS / 2);
+        int column = i % ACROSS - ACROSS / 2, row = i / ACROSS - ACROSS / 2;
+        box.center[0] = 2.0f * (float)column;
+        box.center[1] = 2.0f * (float)row;
         box.center[2] = -4;
         box.axis[0][0] = box.axis[1][1] = 1.02f;
         panels[i] = (world_occluder){box, -1};
     }
     for (int i = 0; i < OBJECTS; i++) {
-        float x = 6.0f * (float)(i % 8 - 4) / 4, y = 3.0f * (float)(i / 8 - 2) / 2;
-        objects[i] = kit_cube(x, y, -12, 0.1f + 0.07f * (float)i);
+        int column = i % 8 - 4, row = i / 8 - 2;
+        objects[i] =
+            kit_cube(1.5f * (float)column, 1.5f * (float)row, -12, 0.1f + 0.07f * (float)i);
     }
     occ_scene *scene = world_scene(objects, OBJECTS, panels, ACROSS * ACROSS, 4);
     occ_view *view = world_view(OCC_BACKEND_PLAIN, 0);

@@ -7,6 +7,7 @@
 // the object, and with exact numbers. It says nothing of how far corners may move: for that, the
 // point at which the judge sees the object has to be near an occluder's outline.
 #include "judge.h"
+#include "sight.h"
 #include "support.h"
 #include "worlds.h"
 
@@ -49,78 +50,6 @@ static void cull_into(bool seen[MOST], const stage *s, const occ_scene *scene, o
         seen[i] = world_sees(view, i);
 }
 
-// --- how far a point is from an occluder's outline -----------------------------------------------
-
-// The square of the distance of x to the cone of a and b, or to that of a alone where b is NULL.
-static double squared_distance(const double x[3], const double *a, const double *b)
-{
-    double aa = dot(a, a), ax = dot(a, x), f = ax / aa, g = 0.0;
-    if (b) {
-        double ab = dot(a, b), bb = dot(b, b), bx = dot(b, x), whole = aa * bb - ab * ab;
-        f = (ax * bb - bx * ab) / whole;
-        g = (bx * aa - ax * ab) / whole;
-    }
-    if (!(f >= 0.0 && g >= 0.0)) return INFINITY;
-    double sum = 0.0;
-    for (int j = 0; j < 3; j++) {
-        double left = x[j] - f * a[j] - (b ? g * b[j] : 0.0);
-        sum += left * left;
-    }
-    return sum;
-}
-
-static bool in_cone(const double x[3], const double a[3], const double b[3], const double c[3])
-{
-    double ab[3], bc[3], ca[3];
-    cross(a, b, ab);
-    cross(b, c, bc);
-    cross(c, a, ca);
-    double turn = dot(ab, c) < 0.0 ? -1.0 : 1.0;
-    if (fabs(dot(ab, c)) < 1e-12 * sqrt(dot(a, a) * dot(b, b) * dot(c, c))) return false;
-    return turn * dot(ab, x) >= 0.0 && turn * dot(bc, x) >= 0.0 && turn * dot(ca, x) >= 0.0;
-}
-
-// The sine of the angle between the direction x, of length 1, and the nearest point of a box.
-static double sine_to_box(const stage *s, const occ_box *box, const double x[3])
-{
-    double corner[8][3], least = INFINITY;
-    for (unsigned c = 0; c < 8; c++) {
-        world_corner(box, c, corner[c]);
-        for (int j = 0; j < 3; j++)
-            corner[c][j] -= s->eye[j];
-    }
-    for (int a = 0; a < 8; a++) {
-        least = fmin(least, squared_distance(x, corner[a], NULL));
-        for (int b = 0; b < a; b++) {
-            least = fmin(least, squared_distance(x, corner[a], corner[b]));
-            for (int c = 0; c < b; c++)
-                if (in_cone(x, corner[a], corner[b], corner[c])) return 0.0;
-        }
-    }
-    return sqrt(least);
-}
-
-// Whether a point relative to the eye is behind the planes of all faces that the eye sees.
-static bool is_behind(const stage *s, const occ_box *box, const double point[3])
-{
-    for (int k = 0; k < 3; k++) {
-        double a[3], b[3], n[3], center[3], reach = 0.0;
-        for (int j = 0; j < 3; j++) {
-            a[j] = (double)box->axis[(k + 1) % 3][j];
-            b[j] = (double)box->axis[(k + 2) % 3][j];
-            center[j] = (double)box->center[j] - s->eye[j];
-        }
-        cross(a, b, n);
-        for (int j = 0; j < 3; j++)
-            reach += n[j] * (double)box->axis[k][j];
-        double side = dot(n, center), size = sqrt(dot(n, n) * dot(center, center));
-        if (fabs(side) - fabs(reach) <= 1e-9 * size) continue;
-        double face = side - (side > 0.0 ? fabs(reach) : -fabs(reach));
-        if ((side > 0.0 ? 1.0 : -1.0) * (dot(n, point) - face) < -1e-6 * size) return false;
-    }
-    return true;
-}
-
 // Whether a point that is seen is next to an occluder that may not hide it, but that the tolerance
 // makes hide it: no farther than the corner of a square would move.
 static bool is_next_to_outline(const stage *s, const double point[3], int self)
@@ -132,8 +61,8 @@ static bool is_next_to_outline(const stage *s, const double point[3], int self)
     for (int j = 0; j < 3; j++)
         x[j] = at[j] / length;
     for (uint32_t i = 0; i < s->occluder_count; i++) {
-        if (s->owners[i] == self || !is_behind(s, &s->boxes[i], at)) continue;
-        if (sine_to_box(s, &s->boxes[i], x) <= s->tolerance * sqrt(0.5) + 1e-6) return true;
+        if (s->owners[i] == self || !sight_is_behind(s->eye, &s->boxes[i], at)) continue;
+        if (sight_sine(s->eye, &s->boxes[i], x) <= s->tolerance * sqrt(0.5) + 1e-6) return true;
     }
     return false;
 }
