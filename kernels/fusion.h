@@ -11,7 +11,6 @@
 
 #define OCC_SIDE_PLANES       4u // left, right, bottom, top; near and far follow
 #define OCC_FUSION_STACK      16u
-#define OCC_FUSION_SPLITS     48u
 #define OCC_FUSION_CANDIDATES 64u
 
 // The shadows that the object touches, and the pieces in hand.
@@ -199,7 +198,7 @@ OCC_FN int occ_fusion_covers(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, 
     occ_fusion_clip(fusion, eye, mask);
     for (occ_u32 split = 0; fusion->depth; split++) {
         occ_u32 i = occ_fusion_find(fusion, shadows, by_faces);
-        if (i == fusion->candidates || split == OCC_FUSION_SPLITS ||
+        if (i == fusion->candidates || split == eye->splits ||
             !occ_fusion_subtract(fusion, &shadows[fusion->candidate[i]], fusion->planes[i])) {
             return 0;
         }

@@ -178,7 +178,7 @@ static inline bool covers(fusion_lanes *fusion, const occ_eye *eye, uint32_t mas
     clip(fusion, eye, mask);
     for (uint32_t split = 0; fusion->depth; split++) {
         uint32_t i = find(fusion, by_faces);
-        if (i == fusion->candidates || split == OCC_FUSION_SPLITS ||
+        if (i == fusion->candidates || split == eye->splits ||
             !subtract(fusion, fusion->candidate[i], fusion->planes[i])) {
             return false;
         }

@@ -154,3 +154,17 @@ if(TARGET test_fusion)
         BY "if (cut == OCC_CUT_TWO && p) fusion->depth++;" COMPILE backend_plain.c)
     occ_caught_by(fusion_half_a_piece fusion random "${fused_too_much}")
 endif()
+
+# --- what a tolerance may hide -------------------------------------------------------------------
+if(TARGET test_tolerance)
+    set(widened "world [0-9]+: object [0-9]+ is hidden, but seen past the widened occluders")
+    occ_plant(tolerance_on_each_side ${in_shadow} REPLACE "double by = 0.5 * tolerance" BY "double by = tolerance")
+    occ_caught_by(tolerance_on_each_side tolerance random "${widened}")
+    occ_plant(tolerance_of_faces ${in_shadow} REPLACE "if (!add_silhouettes(shadow, &s, camera, seen)) return false"
+        BY "if (!add_silhouettes(shadow, &s, camera, seen)) return false;
+    for (int i = 0; i < 9; i++) seen[i / 3].center[i % 3] *= 1.0 - 0.5 * camera->tolerance")
+    occ_caught_by(tolerance_of_faces tolerance random "${widened}")
+    occ_plant(tolerance_of_points ${in_shadow} REPLACE "fmax(1.0 + occ_dot(unit[i], unit[k]), 0.0)"
+        BY "fmax(4.0 + occ_dot(unit[i], unit[k]), 0.0)")
+    occ_caught_by(tolerance_of_points tolerance random "world [0-9]+: object [0-9]+ is hidden, but seen far from all outlines")
+endif()
