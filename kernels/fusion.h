@@ -108,51 +108,6 @@ OCC_FN occ_u32 occ_fusion_find(const occ_fusion *fusion, OCC_GLOBAL const occ_sh
     return i;
 }
 
-// Whether a candidate holds a vertex.
-OCC_FN int occ_fusion_holds(const occ_fusion *fusion, const occ_vertex *v,
-                            OCC_GLOBAL const occ_shadow *shadows)
-{
-    for (occ_u32 i = 0; i < fusion->candidates; i++) {
-        OCC_GLOBAL const occ_shadow *shadow = &shadows[fusion->candidate[i]];
-        int held = 1;
-        for (occ_u32 p = 0; p < shadow->planes && held; p++) {
-            if (!(fusion->planes[i] >> p & 1u)) continue;
-            occ_cutter n;
-            occ_cutter_set(&n, shadow->plane[p], 1.0f);
-            held = occ_vertex_at(v, &n) > occ_vertex_least(v, &n);
-        }
-        if (held) return 1;
-    }
-    return 0;
-}
-
-// Whether a vertex is on the inner side of those side planes that `mask` names.
-OCC_FN int occ_vertex_in_frustum(const occ_vertex *v, OCC_GLOBAL const occ_eye *eye, occ_u32 mask)
-{
-    for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
-        if (!(mask >> p & 1u)) continue;
-        occ_cutter n;
-        occ_cutter_set(&n, eye->plane[p], 1.0f);
-        if (!(occ_vertex_at(v, &n) > 0.0f)) return 0;
-    }
-    return 1;
-}
-
-// Whether a corner of the outline is in the picture and in no shadow.
-OCC_FN int occ_fusion_corner_shows(const occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye,
-                                   occ_u32 mask, OCC_GLOBAL const occ_shadow *shadows)
-{
-    for (occ_u32 i = 0; i < fusion->depth; i++) {
-        for (occ_u32 k = 0; k < fusion->stack[i].count; k++) {
-            const occ_vertex *v = &fusion->stack[i].v[k];
-            if (!occ_fusion_holds(fusion, v, shadows) && occ_vertex_in_frustum(v, eye, mask)) {
-                return 1;
-            }
-        }
-    }
-    return 0;
-}
-
 // Takes a shadow from the piece on top of the stack, which it replaces by what is left. 0 if that
 // cannot be done.
 OCC_FN int occ_fusion_subtract(occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadow,
@@ -206,17 +161,46 @@ OCC_FN int occ_fusion_covers(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, 
     return 1;
 }
 
-// The object's center is in the picture. (What lies around it as well; so it is a witness, if no
-// shadow holds it: moving towards the eye leads out of shadows, never into one.)
-OCC_FN int occ_center_in_frustum(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye,
-                                 occ_u32 mask)
+// A point is on the inner side of those side planes that `mask` names.
+OCC_FN int occ_point_in_frustum(float x, float y, float z, OCC_GLOBAL const occ_eye *eye,
+                                occ_u32 mask)
 {
     for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
         OCC_PLANES_OF n = eye->plane[p];
-        float s = OCC_PLANE_AT(n[0], n[1], n[2], n[3], box->t[0], box->t[1], box->t[2]);
-        if ((mask >> p & 1u) && !(s > 0.0f)) return 0;
+        if ((mask >> p & 1u) && !(OCC_PLANE_AT(n[0], n[1], n[2], n[3], x, y, z) > 0.0f)) return 0;
     }
     return 1;
+}
+
+// A shadow holds a point by more than the bound e.
+OCC_FN int occ_shadow_holds_point(OCC_GLOBAL const occ_shadow *shadow, float x, float y, float z,
+                                  float e)
+{
+    for (occ_u32 p = 0; p < shadow->planes; p++) {
+        OCC_PLANES_OF n = shadow->plane[p];
+        if (!(OCC_PLANE_AT(n[0], n[1], n[2], n[3], x, y, z) > e)) return 0;
+    }
+    return 1;
+}
+
+// A point of the box that is in the picture and in no shadow is a witness, wherever it is in the
+// box: moving towards the eye leads out of shadows, never into one.
+OCC_FN int occ_box_shows_corner(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye,
+                                occ_u32 mask, OCC_GLOBAL const occ_shadow *shadows,
+                                OCC_GLOBAL const occ_u32 *list, occ_u32 count, occ_u32 row)
+{
+    for (occ_u32 corner = 0; corner < 8u; corner++) {
+        float x, y, z;
+        occ_box_corner(box, corner, &x, &y, &z);
+        if (!occ_point_in_frustum(x, y, z, eye, mask)) continue;
+        occ_u32 i = 0;
+        for (; i < count; i++) {
+            OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
+            if (shadow->owner != row && occ_shadow_holds_point(shadow, x, y, z, box->e)) break;
+        }
+        if (i == count) return 1;
+    }
+    return 0;
 }
 
 // The object is hidden by a candidate, or by several together. Cheap answers come first: the center
@@ -233,11 +217,12 @@ OCC_FN int occ_box_fused(const occ_relative_box *box, OCC_GLOBAL const occ_eye *
         if (shadow->owner != row && occ_fusion_consider(&fusion, box, shadow, list[i])) return 1;
     }
     if (fusion.candidates == 0) return 0;
-    if (!fusion.held && occ_center_in_frustum(box, eye, mask)) return 0;
+    if (!fusion.held && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, mask)) return 0;
+    if (occ_box_shows_corner(box, eye, mask, shadows, list, count, row)) return 0;
     occ_outline outline;
     if (!occ_outline_set(&outline, box, eye, 0)) return 0;
     fusion.depth = occ_outline_pieces(&outline, box, fusion.stack);
-    if (!fusion.depth || occ_fusion_corner_shows(&fusion, eye, mask, shadows)) return 0;
+    if (!fusion.depth) return 0;
     if (occ_fusion_covers(&fusion, eye, mask, shadows, 0)) return 1;
     if (!fusion.faces) return 0;
     if (!occ_outline_set(&outline, box, eye, 1)) return 0;

@@ -119,14 +119,22 @@ OCC_FN int occ_outline_set(occ_outline *outline, const occ_relative_box *box,
     return outline->polygons > 0;
 }
 
-// The corner that has the signs `corner`. 0 if floats cannot say where it is.
-OCC_FN int occ_outline_corner(const occ_relative_box *box, occ_u32 corner, occ_vertex *v)
+// The corner that has the signs `corner`.
+OCC_FN void occ_box_corner(const occ_relative_box *box, occ_u32 corner, float *x, float *y,
+                           float *z)
 {
+    const float *t = box->t, *a = box->a;
     float s0 = corner & 1u ? -1.0f : 1.0f, s1 = corner & 2u ? -1.0f : 1.0f;
     float s2 = corner & 4u ? -1.0f : 1.0f;
-    v->x = OCC_CORNER(box->t[0], s0 * box->a[0], s1 * box->a[3], s2 * box->a[6]);
-    v->y = OCC_CORNER(box->t[1], s0 * box->a[1], s1 * box->a[4], s2 * box->a[7]);
-    v->z = OCC_CORNER(box->t[2], s0 * box->a[2], s1 * box->a[5], s2 * box->a[8]);
+    *x = OCC_CORNER(t[0], s0 * a[0], s1 * a[3], s2 * a[6]);
+    *y = OCC_CORNER(t[1], s0 * a[1], s1 * a[4], s2 * a[7]);
+    *z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
+}
+
+// That corner as a vertex. 0 if floats cannot say where it is.
+OCC_FN int occ_outline_corner(const occ_relative_box *box, occ_u32 corner, occ_vertex *v)
+{
+    occ_box_corner(box, corner, &v->x, &v->y, &v->z);
     v->w = 1.0f;
     v->e = box->e;
     return occ_vertex_scale(v);

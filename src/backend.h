@@ -13,9 +13,8 @@
 typedef struct occ_test_job {
     const occ_scene *scene;
     const occ_eye *eye;
-    const occ_shadow *shadows;
-    const occ_wide_shadow *wide; // the same
-    uint32_t shadow_count;
+    const occ_screen *screen;
+    const occ_shadow_set *set;
     const occ_range *ranges;
     uint32_t range_count;
     const uint32_t *candidates; // the ranges' lists, one after the other

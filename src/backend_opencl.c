@@ -124,7 +124,7 @@ static occ_result send_job(opencl_backend *backend, const occ_test_job *job)
 {
     occ_result result = send(backend, EYE, job->eye, sizeof *job->eye);
     if (!result) {
-        result = send(backend, SHADOWS, job->shadows, job->shadow_count * sizeof(occ_shadow));
+        result = send(backend, SHADOWS, job->set->shadows, job->set->count * sizeof(occ_shadow));
     }
     if (!result) result = send(backend, RANGES, job->ranges, job->range_count * sizeof(occ_range));
     if (!result) {

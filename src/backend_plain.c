@@ -13,13 +13,13 @@ static uint32_t verdict_of(const occ_test_job *job, const occ_range *range, uint
     if (occ_box_outside(&relative, eye->plane[0], range->frustum)) return OCC_OUTSIDE;
     const uint32_t *list = job->candidates + range->candidates;
     if (range->fused) {
-        return occ_box_fused(&relative, eye, range->frustum, job->shadows, list,
+        return occ_box_fused(&relative, eye, range->frustum, job->set->shadows, list,
                              range->candidate_count, row)
                    ? OCC_HIDDEN
                    : OCC_VISIBLE;
     }
     for (uint32_t c = 0; c < range->candidate_count; c++) {
-        const occ_shadow *shadow = &job->shadows[list[c]];
+        const occ_shadow *shadow = &job->set->shadows[list[c]];
         if (shadow->owner == row) continue;
         if (occ_box_in_shadow(&relative, shadow->plane[0], shadow->planes)) return OCC_HIDDEN;
     }

@@ -175,6 +175,25 @@ static void measure_view(occ_camera *camera)
     camera->view_area = sqrt(occ_dot(normal, normal));
 }
 
+// The rows of x, y and w. The eye is where they vanish; for an orthographic camera, where w does
+// not.
+static void set_screen(occ_camera *camera, const row4 *row)
+{
+    static const int used[3] = {0, 1, 3};
+    occ_screen *screen = &camera->screen;
+    double most = 0.0;
+    for (int r = 0; r < 3; r++) {
+        double sum = 0.0;
+        for (int j = 0; j < 3; j++) {
+            screen->row[r][j] = (float)row[used[r]][j];
+            sum += fabs(row[used[r]][j]);
+        }
+        most = fmax(most, sum);
+    }
+    screen->w = camera->orthographic ? (float)row[3][3] : 0.0f;
+    screen->least = (float)(most * 0x1p-8);
+}
+
 static void set_constants(occ_camera *camera)
 {
     double reach = 0.0;
@@ -237,11 +256,7 @@ occ_result occ_camera_init(occ_camera *camera, const occ_camera_desc *desc, cons
     for (int j = 0; j < 3 && (given || camera->orthographic); j++)
         camera->doubt[j] = 0.0;
     measure_view(camera);
-    static const int used[3] = {0, 1, 3};
-    for (int r = 0; r < 3; r++)
-        for (int j = 0; j < 3; j++)
-            camera->screen[r][j] = (float)row[used[r]][j];
-    camera->screen_w = camera->orthographic ? (float)row[3][3] : 0.0f;
+    set_screen(camera, (const row4 *)row);
     set_constants(camera);
     return OCC_SUCCESS;
 }

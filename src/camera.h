@@ -2,6 +2,7 @@
 #ifndef OCC_CAMERA_H
 #define OCC_CAMERA_H
 
+#include "screen.h"
 #include "verdict.h"
 
 #include <occlude/cull.h>
@@ -28,8 +29,7 @@ typedef struct occ_camera {
     double view_area;         // orthographic: of the view rectangle, in square units; else 0
     double tolerance;         // the knob: for shadow.c
     occ_eye constants;
-    float screen[3][3]; // the matrix's rows of x, y and w, for points relative to the eye
-    float screen_w;     // what is added to the last: 0, unless the camera is orthographic
+    occ_screen screen;
 } occ_camera;
 
 // Derives all of it. On failure `*reason` says why.

@@ -24,6 +24,7 @@ typedef struct occ_frame {
     // walk.c
     occ_array heap;    // of walk_entry
     occ_array pool;    // of uint32_t: the lists of shadows of the heap's entries and of the ranges
+    uint32_t hint;     // which corner of a node to ask first
     occ_array open;    // of open_range
     occ_array touched; // of uint8_t
     occ_array ranges;  // of occ_range

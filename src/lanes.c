@@ -20,139 +20,222 @@
 #define ALL_WIDE    ((1u << OCC_WIDTH) - 1u)
 #define NODE_GROUPS (OCC_NODE_LANES / OCC_NODE_WIDTH)
 
+#define ASKED_AT_ONCE 4u  // of those that hold a box's center
+#define LISTED_BLOCKS 16u // of candidates of a range
+
 #include "lanes_fusion.h"
 
-// Point i is at t + s0 a0 + s1 a1 + s2 a2 with these signs.
-static const float point_signs[3][OCC_SHADOW_LANES] = {{-1, 1, -1, 1, -1, 1, -1, 1, 0},
-                                                       {-1, -1, 1, 1, -1, -1, 1, 1, 0},
-                                                       {-1, -1, -1, -1, 1, 1, 1, 1, 0}};
+// --- the screen ----------------------------------------------------------------------------------
 
-static void project(const float screen[3][3], float w, const occ_relative_box *box,
-                    occ_projection *seen)
+static const uint32_t corner_codes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+
+static void project_center(const occ_screen *screen, const float p[3], occ_projection *seen)
 {
-    const float *t = box->t, *a = box->a;
-    uint32_t in_front = 0, shown = 0;
-    for (uint32_t g = 0; g < OCC_POINTS; g += OCC_WIDTH) {
-        fwide s0 = load_wide(point_signs[0] + g), s1 = load_wide(point_signs[1] + g);
-        fwide s2 = load_wide(point_signs[2] + g);
-        fwide x = OCC_CORNER(t[0], s0 * a[0], s1 * a[3], s2 * a[6]);
-        fwide y = OCC_CORNER(t[1], s0 * a[1], s1 * a[4], s2 * a[7]);
-        fwide z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
-        fwide depth = OCC_PLANE_AT(screen[2][0], screen[2][1], screen[2][2], w, x, y, z);
-        fwide u = (screen[0][0] * x + screen[0][1] * y + screen[0][2] * z) / depth;
-        fwide v = (screen[1][0] * x + screen[1][1] * y + screen[1][2] * z) / depth;
-        iwide front = depth > 0.0f;
-        store_wide(seen->x + g, x);
-        store_wide(seen->y + g, y);
-        store_wide(seen->z + g, z);
-        store_wide(seen->u + g, u);
-        store_wide(seen->v + g, v);
-        in_front |= bits_wide(front) << g;
-        shown |= bits_wide(front & (abs_wide(u) <= 1.0f) & (abs_wide(v) <= 1.0f)) << g;
+    const float *n = screen->row[2];
+    float w = OCC_PLANE_AT(n[0], n[1], n[2], screen->w, p[0], p[1], p[2]);
+    bool clear = w > screen->least * OCC_NORM1(p[0], p[1], p[2]);
+    for (uint32_t r = 0; r < 2; r++) {
+        n = screen->row[r];
+        float at = clear ? (n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / w : NAN;
+        *(r ? &seen->v[8] : &seen->u[8]) = at;
     }
-    const uint32_t all = (1u << OCC_POINTS) - 1u;
-    bool whole = (in_front & all) == all;
-    seen->shown = shown & all;
-    seen->min[0] = whole ? least_of(seen->u, OCC_POINTS) : -INFINITY;
-    seen->min[1] = whole ? least_of(seen->v, OCC_POINTS) : -INFINITY;
-    seen->max[0] = whole ? most_of(seen->u, OCC_POINTS) : INFINITY;
-    seen->max[1] = whole ? most_of(seen->v, OCC_POINTS) : INFINITY;
 }
 
-// Occluders of a block that may touch the box on the screen.
-static inline uint32_t overlap_block(const occ_rect_block *block, uint32_t count,
-                                     const occ_projection *seen, float key)
+static void project(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen)
 {
-    uint32_t bits = 0;
-    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        iwide touching = (load_wide(block->min[0] + g) <= seen->max[0]) &
-                         (load_wide(block->max[0] + g) >= seen->min[0]) &
-                         (load_wide(block->min[1] + g) <= seen->max[1]) &
-                         (load_wide(block->max[1] + g) >= seen->min[1]) &
-                         (load_wide(block->key + g) <= key);
-        bits |= bits_wide(touching) << g;
+    const float(*row)[3] = screen->row;
+    uint32_t clear = 0;
+    for (uint32_t l = 0; l < 8; l += OCC_NODE_WIDTH) {
+        inode codes;
+        fnode x, y, z;
+        memcpy(&codes, corner_codes + l, sizeof codes);
+        corners_of(box, codes, &x, &y, &z);
+        fnode w = OCC_PLANE_AT(row[2][0], row[2][1], row[2][2], screen->w, x, y, z);
+        fnode least = screen->least * OCC_NORM1(x, y, z);
+        const fnode nan = splat_node(NAN);
+        fnode u = (row[0][0] * x + row[0][1] * y + row[0][2] * z) / w;
+        fnode v = (row[1][0] * x + row[1][1] * y + row[1][2] * z) / w;
+        store_node(seen->x + l, x);
+        store_node(seen->y + l, y);
+        store_node(seen->z + l, z);
+        store_node(seen->u + l, select_node(w > least, u, nan));
+        store_node(seen->v + l, select_node(w > least, v, nan));
+        clear |= above_node(w, least) << l;
     }
+    bool whole = clear == 0xffu;
+    seen->min[0] = whole ? least_of_eight(seen->u) : -INFINITY;
+    seen->min[1] = whole ? least_of_eight(seen->v) : -INFINITY;
+    seen->max[0] = whole ? largest_of_eight(seen->u) : INFINITY;
+    seen->max[1] = whole ? largest_of_eight(seen->v) : INFINITY;
+    project_center(screen, box->t, seen);
+}
+
+static inline uint32_t present(uint32_t bits, uint32_t count)
+{
     return count >= OCC_SHADOW_LANES ? bits : bits & ((1u << count) - 1u);
 }
 
-// The points of the box that are within an occluder's bounds on the screen.
-static inline uint32_t points_near(const occ_projection *seen, const occ_rect_block *block,
-                                   uint32_t lane)
+// Occluders of a block that may touch the box, by where they are on the screen.
+static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen,
+                                      float key)
 {
     uint32_t bits = 0;
-    for (uint32_t g = 0; g < OCC_POINTS; g += OCC_WIDTH) {
-        fwide u = load_wide(seen->u + g), v = load_wide(seen->v + g);
-        bits |= bits_wide((u >= block->min[0][lane]) & (u <= block->max[0][lane]) &
-                          (v >= block->min[1][lane]) & (v <= block->max[1][lane]))
-                << g;
+    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
+        uint32_t near = not_above_wide(load_wide(block->min[0] + g), splat_wide(seen->max[0]));
+        near &= not_above_wide(splat_wide(seen->min[0]), load_wide(block->max[0] + g));
+        near &= not_above_wide(load_wide(block->min[1] + g), splat_wide(seen->max[1]));
+        near &= not_above_wide(splat_wide(seen->min[1]), load_wide(block->max[1] + g));
+        near &= not_above_wide(load_wide(block->key + g), splat_wide(key));
+        bits |= near << g;
     }
-    return bits & ((1u << OCC_POINTS) - 1u);
+    return bits;
 }
 
-// Those of `points` that a shadow holds by more than the bound.
-static inline uint32_t points_held(const occ_projection *seen, const occ_wide_shadow *shadow,
-                                   float e, uint32_t points)
+// Those that may hold point i.
+static inline uint32_t block_near_point(const occ_rect_block *block, const occ_projection *seen,
+                                        uint32_t i)
 {
-    for (uint32_t p = 0; p < OCC_FACE_LANE + 3 && points; p++) {
-        uint32_t held = 0;
-        for (uint32_t g = 0; g < OCC_POINTS; g += OCC_WIDTH) {
-            fwide s = OCC_PLANE_AT(shadow->plane[0][p], shadow->plane[1][p], shadow->plane[2][p],
-                                   shadow->plane[3][p], load_wide(seen->x + g),
-                                   load_wide(seen->y + g), load_wide(seen->z + g));
-            held |= bits_wide(s > e) << g;
+    uint32_t bits = 0;
+    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
+        fwide u = splat_wide(seen->u[i]), v = splat_wide(seen->v[i]);
+        uint32_t near = not_above_wide(load_wide(block->min[0] + g), u);
+        near &= not_above_wide(u, load_wide(block->max[0] + g));
+        near &= not_above_wide(load_wide(block->min[1] + g), v);
+        near &= not_above_wide(v, load_wide(block->max[1] + g));
+        bits |= near << g;
+    }
+    return bits;
+}
+
+// As occ_point_in_frustum(), for the corners.
+static inline uint32_t corners_in_frustum(const occ_projection *seen, const occ_eye *eye,
+                                          uint32_t mask)
+{
+    uint32_t in = 0xffu;
+    for (uint32_t p = 0; p < OCC_SIDE_PLANES; p++) {
+        if (!(mask >> p & 1u)) continue;
+        const float *n = eye->plane[p];
+        uint32_t inner = 0;
+        for (uint32_t l = 0; l < 8; l += OCC_NODE_WIDTH) {
+            fnode at = OCC_PLANE_AT(n[0], n[1], n[2], n[3], load_node(seen->x + l),
+                                    load_node(seen->y + l), load_node(seen->z + l));
+            inner |= above_node(at, splat_node(0.0f)) << l;
         }
-        points &= held;
+        in &= inner;
     }
-    return points;
+    return in;
 }
 
-// Asks one shadow. Whether it hides the box. A shadow whose face cuts the box may hide something of
-// what is in it, but not the box together with others.
-static inline bool ask(fusion_lanes *fusion, const occ_question *question,
-                       const occ_shadow_set *set, uint32_t i)
+// --- boxes of the walk ---------------------------------------------------------------------------
+
+static inline contact meet_asked(const occ_question *question, const occ_wide_shadow *shadow)
 {
-    contact met = meet(question->box, &set->wide[i]);
-    if (met.apart) return false;
-    if (set->shadows[i].owner - question->first < question->rows) return false;
-    if (!met.cutting) return true;
-    if (!(met.cutting >> OCC_FACE_LANE)) add_candidate(fusion, &set->wide[i], &met);
+    return question->upright ? meet_upright(question->box, shadow) : meet(question->box, shadow);
+}
+
+static inline bool is_own(const occ_question *question, const occ_shadow_set *set, uint32_t i)
+{
+    return set->shadows[i].owner - question->first < question->rows;
+}
+
+// What holds the center may hide the box alone. Leaves those that do not in `holders`, a word per
+// block. Whether one does.
+static inline bool ask_center(const occ_question *question, const occ_shadow_set *set,
+                              uint32_t blocks, uint16_t *holders, bool *held)
+{
+    const float *t = question->box->t;
+    uint32_t asked = 0;
+    for (uint32_t b = 0; b < blocks; b++) {
+        uint32_t first = b * OCC_SHADOW_LANES;
+        uint32_t near = block_near_point(&set->rects[b], question->seen, 8);
+        holders[b] = 0;
+        for (near = present(near, set->count - first); near; near &= near - 1u) {
+            uint32_t lane = (uint32_t)__builtin_ctz(near), i = first + lane;
+            if (!holds_point(&set->wide[i], t[0], t[1], t[2], question->box->e)) continue;
+            if (is_own(question, set, i)) continue;
+            *held = true;
+            if (asked++ >= ASKED_AT_ONCE) {
+                holders[b] |= (uint16_t)(1u << lane);
+                continue;
+            }
+            contact met = meet_asked(question, &set->wide[i]);
+            if (!met.apart && !met.cutting) return true;
+        }
+    }
     return false;
 }
 
-// Points first: what no occluder holds shows. (That a point is inside the box, or on its far side,
-// does not matter: on the way from it to the eye no shadow begins.) And only an occluder that holds
-// the center can hide the box alone.
-static bool hide(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye)
+// Whether any holds corner k. Keeps in `holders` what does.
+static inline bool ask_corner(const occ_question *question, const occ_shadow_set *set,
+                              uint32_t blocks, uint16_t *holders, uint32_t k)
 {
-    const uint32_t center = 1u << (OCC_POINTS - 1u);
     const occ_projection *seen = question->seen;
-    fusion_lanes fusion;
-    uint32_t near[OCC_MOST_SHADOW_BLOCKS], shown = seen->shown;
-    for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t met = overlap_block(&set->rects[b], set->count - i, seen, question->key);
-        if (b < OCC_MOST_SHADOW_BLOCKS) near[b] = met;
-        for (; met; met &= met - 1u) {
-            uint32_t lane = (uint32_t)__builtin_ctz(met);
-            uint32_t points = points_near(seen, &set->rects[b], lane) & (shown | center);
-            if (!points) continue;
-            points = points_held(seen, &set->wide[i + lane], question->box->e, points);
-            if (!points) continue;
-            if (set->shadows[i + lane].owner - question->first < question->rows) continue;
-            shown &= ~points;
-            if (!(points & center)) continue;
-            contact touch = meet(question->box, &set->wide[i + lane]);
-            if (!touch.apart && !touch.cutting) return true;
+    bool any = false;
+    for (uint32_t b = 0; b < blocks; b++) {
+        uint32_t first = b * OCC_SHADOW_LANES, held = 0;
+        uint32_t near = present(block_near_point(&set->rects[b], seen, k), set->count - first);
+        for (; near; near &= near - 1u) {
+            uint32_t lane = (uint32_t)__builtin_ctz(near), i = first + lane;
+            if (any && !(holders[b] >> lane & 1u)) continue;
+            if (!holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e))
+                continue;
+            if (is_own(question, set, i)) continue;
+            held |= 1u << lane;
+            any = true;
         }
+        holders[b] &= (uint16_t)held;
     }
-    if (shown || !question->fuse) return false;
+    return any;
+}
+
+static inline bool ask_together(const occ_question *question, const occ_shadow_set *set,
+                                uint32_t blocks, const occ_eye *eye)
+{
+    fusion_lanes fusion;
     start_fusion(&fusion);
-    for (uint32_t i = 0, b = 0; i < set->count && b < OCC_MOST_SHADOW_BLOCKS;
-         i += OCC_SHADOW_LANES, b++) {
-        for (; near[b]; near[b] &= near[b] - 1u)
-            if (ask(&fusion, question, set, i + (uint32_t)__builtin_ctz(near[b]))) return true;
+    for (uint32_t b = 0; b < blocks; b++) {
+        uint32_t first = b * OCC_SHADOW_LANES;
+        uint32_t near = block_near_box(&set->rects[b], question->seen, INFINITY);
+        for (near = present(near, set->count - first); near; near &= near - 1u) {
+            uint32_t i = first + (uint32_t)__builtin_ctz(near);
+            contact met = meet_asked(question, &set->wide[i]);
+            if (met.apart || is_own(question, set, i)) continue;
+            if (!met.cutting) return true;
+            // What its face cuts it may hide in part, but not together with others.
+            if (!(met.cutting >> OCC_FACE_LANE)) add_candidate(&fusion, &set->wide[i], &met);
+        }
     }
     return fusion.candidates && see_outline(&fusion, question->box, eye, false) &&
            covers(&fusion, eye, question->frustum, false);
+}
+
+// Points first: what no occluder holds shows. (That a point is inside the box, or on its far side,
+// does not matter: on the way from it to the eye no shadow begins.)
+static bool hide(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye)
+{
+    uint16_t holders[OCC_MOST_SHADOW_BLOCKS];
+    const occ_relative_box *box = question->box;
+    uint32_t blocks = (set->count + OCC_SHADOW_LANES - 1u) / OCC_SHADOW_LANES;
+    if (blocks > OCC_MOST_SHADOW_BLOCKS) blocks = OCC_MOST_SHADOW_BLOCKS;
+    bool held = false;
+    if (ask_center(question, set, blocks, holders, &held)) return true;
+    if (!held && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, question->frustum))
+        return false;
+    uint32_t shown = corners_in_frustum(question->seen, eye, question->frustum);
+    for (uint32_t i = 0; i < 8; i++) {
+        uint32_t k = (i + *question->hint) & 7u;
+        if (!(shown >> k & 1u) || ask_corner(question, set, blocks, holders, k)) continue;
+        *question->hint = k;
+        return false;
+    }
+    for (uint32_t b = 0; b < blocks; b++) {
+        for (uint32_t left = holders[b]; left; left &= left - 1u) {
+            uint32_t i = b * OCC_SHADOW_LANES + (uint32_t)__builtin_ctz(left);
+            contact met = meet_asked(question, &set->wide[i]);
+            if (!met.apart && !met.cutting) return true;
+        }
+    }
+    return question->fuse && ask_together(question, set, blocks, eye);
 }
 
 static bool gather(const occ_question *question, const occ_shadow_set *set, uint32_t *list,
@@ -160,19 +243,20 @@ static bool gather(const occ_question *question, const occ_shadow_set *set, uint
 {
     uint32_t listed = 0;
     for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t met = overlap_block(&set->rects[b], set->count - i, question->seen, question->key);
-        for (; met; met &= met - 1u) {
-            uint32_t s = i + (uint32_t)__builtin_ctz(met);
-            contact contact_of = meet(question->box, &set->wide[s]);
-            if (contact_of.apart) continue;
-            bool own = set->shadows[s].owner - question->first < question->rows;
-            if (!contact_of.cutting && !own) return true;
+        uint32_t near = block_near_box(&set->rects[b], question->seen, question->key);
+        for (near = present(near, set->count - i); near; near &= near - 1u) {
+            uint32_t s = i + (uint32_t)__builtin_ctz(near);
+            contact met = meet_asked(question, &set->wide[s]);
+            if (met.apart) continue;
+            if (!met.cutting && !is_own(question, set, s)) return true;
             list[listed++] = s;
         }
     }
     *count = listed;
     return false;
 }
+
+// --- siblings ------------------------------------------------------------------------------------
 
 typedef struct node_lanes {
     struct {
@@ -223,8 +307,8 @@ static inline sides sides_of_nodes(const node_lanes *lanes, const float plane[4]
         fnode e = lanes->group[g].e;
         fnode s = OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], t[0], t[1], t[2]);
         fnode r = OCC_REACH_OF_AABB(plane[0], plane[1], plane[2], h[0], h[1], h[2]);
-        side.inside |= bits_node(OCC_IS_INSIDE(s, r, e)) << g * OCC_NODE_WIDTH;
-        side.outside |= bits_node(OCC_IS_OUTSIDE(s, r, e)) << g * OCC_NODE_WIDTH;
+        side.inside |= above_node(s - r, e) << g * OCC_NODE_WIDTH;
+        side.outside |= above_node(-e, s + r) << g * OCC_NODE_WIDTH;
     }
     return side;
 }
@@ -288,7 +372,7 @@ static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye
     for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
         if (!(planes >> p & 1u)) continue;
         fwide s = center_of_objects(o, eye->plane[p]), r = reach_of_objects(o, eye->plane[p]);
-        outside |= bits_wide(OCC_IS_OUTSIDE(s, r, o->e));
+        outside |= above_wide(-o->e, s + r);
     }
     return outside;
 }
@@ -299,7 +383,7 @@ static inline uint32_t centers_inside(const object_lanes *o, const occ_shadow *s
                                       uint32_t open)
 {
     for (uint32_t p = 0; p < shadow->planes && open; p++)
-        open &= bits_wide(center_of_objects(o, shadow->plane[p]) > o->e);
+        open &= above_wide(center_of_objects(o, shadow->plane[p]), o->e);
     return open;
 }
 
@@ -307,7 +391,7 @@ static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *sh
 {
     for (uint32_t p = 0; p < shadow->planes && open; p++) {
         fwide s = center_of_objects(o, shadow->plane[p]), r = reach_of_objects(o, shadow->plane[p]);
-        open &= bits_wide(OCC_IS_INSIDE(s, r, o->e));
+        open &= above_wide(s - r, o->e);
     }
     return open;
 }
@@ -317,42 +401,117 @@ static inline uint32_t centers_in_frustum(const object_lanes *o, const occ_eye *
 {
     uint32_t in = ALL_WIDE;
     for (uint32_t p = 0; p < OCC_SIDE_PLANES; p++)
-        if (mask >> p & 1u) in &= bits_wide(center_of_objects(o, eye->plane[p]) > 0.0f);
+        if (mask >> p & 1u) in &= above_wide(center_of_objects(o, eye->plane[p]), splat_wide(0.0f));
     return in;
 }
 
-// As occ_box_fused().
-static bool fuse(const occ_relative_box *box, const occ_range *range, const occ_eye *eye,
-                 const occ_candidates *candidates, uint32_t row)
+// Where a range's candidates are on the screen, sixteen by sixteen in the order of the list.
+typedef struct screen_list {
+    occ_rect_block block[LISTED_BLOCKS];
+    uint32_t count; // the candidates beyond may be anywhere
+} screen_list;
+
+static void list_screen(screen_list *list, const occ_candidates *candidates)
 {
+    const uint32_t most = LISTED_BLOCKS * OCC_SHADOW_LANES;
+    list->count = candidates->count < most ? candidates->count : most;
+    for (uint32_t i = 0; i < list->count; i++) {
+        uint32_t s = candidates->list[i], lane = s % OCC_SHADOW_LANES;
+        const occ_rect_block *from = &candidates->set->rects[s / OCC_SHADOW_LANES];
+        occ_rect_block *to = &list->block[i / OCC_SHADOW_LANES];
+        for (uint32_t j = 0; j < 2; j++) {
+            to->min[j][i % OCC_SHADOW_LANES] = from->min[j][lane];
+            to->max[j][i % OCC_SHADOW_LANES] = from->max[j][lane];
+        }
+    }
+}
+
+// Whether candidate c holds corner k of the object in this row.
+static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c, uint32_t row,
+                                   const occ_projection *seen, uint32_t k, float e)
+{
+    uint32_t s = candidates->list[c];
+    return holds_point(&candidates->set->wide[s], seen->x[k], seen->y[k], seen->z[k], e) &&
+           candidates->set->shadows[s].owner != row;
+}
+
+static inline bool corner_is_held(const screen_list *list, const occ_candidates *candidates,
+                                  uint32_t row, const occ_projection *seen, uint32_t k, float e)
+{
+    for (uint32_t i = 0, b = 0; i < list->count; i += OCC_SHADOW_LANES, b++) {
+        uint32_t near = block_near_point(&list->block[b], seen, k);
+        for (near = present(near, list->count - i); near; near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctz(near);
+            if (candidate_holds(candidates, c, row, seen, k, e)) return true;
+        }
+    }
+    for (uint32_t c = list->count; c < candidates->count; c++)
+        if (candidate_holds(candidates, c, row, seen, k, e)) return true;
+    return false;
+}
+
+// What the objects of a range have in common.
+typedef struct range_fusion {
+    const occ_range *range;
+    const occ_eye *eye;
+    const occ_screen *screen;
+    const occ_candidates *candidates;
+    screen_list list;
+    uint32_t hint; // the corner that showed last
+    bool listed;
+} range_fusion;
+
+// As occ_box_fused(), where a candidate holds the center or the center is not in the picture.
+static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row)
+{
+    const occ_candidates *candidates = common->candidates;
+    occ_projection seen;
     fusion_lanes fusion;
+    project(common->screen, box, &seen);
+    uint32_t shown = corners_in_frustum(&seen, common->eye, common->range->frustum);
+    for (uint32_t i = 0; i < 8; i++) {
+        uint32_t k = (i + common->hint) & 7u;
+        if (!(shown >> k & 1u)) continue;
+        if (corner_is_held(&common->list, candidates, row, &seen, k, box->e)) continue;
+        common->hint = k;
+        return false;
+    }
     start_fusion(&fusion);
     for (uint32_t i = 0; i < candidates->count; i++) {
-        uint32_t c = candidates->list[i];
-        if (candidates->shadows[c].owner == row) continue;
-        if (consider(&fusion, box, &candidates->wide[c])) return true;
+        uint32_t s = candidates->list[i];
+        if (candidates->set->shadows[s].owner == row) continue;
+        if (consider(&fusion, box, &candidates->set->wide[s])) return true;
     }
-    return fuse_candidates(&fusion, box, eye, range->frustum);
+    return fusion.candidates && fuse_candidates(&fusion, box, common->eye, common->range->frustum);
 }
 
 // Objects of `open` that several candidates hide together.
-static uint32_t fuse_objects(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
-                             const occ_candidates *candidates, uint32_t row, uint32_t open)
+static uint32_t fuse_objects(range_fusion *common, const occ_boxes *boxes, uint32_t row,
+                             uint32_t open)
 {
     uint32_t hidden = 0;
+    if (open && !common->listed) list_screen(&common->list, common->candidates);
+    common->listed |= open != 0;
     for (; open; open &= open - 1u) {
         uint32_t l = (uint32_t)__builtin_ctz(open);
         const occ_box box = occ_boxes_get(boxes, row + l);
-        occ_relative_box relative = occ_box_relative(&box, eye);
-        hidden |= (uint32_t)fuse(&relative, range, eye, candidates, row + l) << l;
+        occ_relative_box relative = occ_box_relative(&box, common->eye);
+        hidden |= (uint32_t)fuse(common, &relative, row + l) << l;
     }
     return hidden;
 }
 
 static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
-                        const occ_candidates *candidates)
+                        const occ_screen *screen, const occ_candidates *candidates)
 {
     occ_verdict verdict = {{0, 0}, {0, 0}};
+    range_fusion common;
+    common.range = range;
+    common.eye = eye;
+    common.screen = screen;
+    common.candidates = candidates;
+    common.hint = 0;
+    common.listed = false;
     for (uint32_t i = 0; i < range->count; i += OCC_WIDTH) {
         object_lanes lanes;
         uint32_t row = range->first + i, left = range->count - i;
@@ -361,7 +520,7 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
         uint32_t outside = outside_frustum(&lanes, eye, range->frustum) & all;
         uint32_t open = all & ~outside, held = 0;
         for (uint32_t c = 0; c < candidates->count && open; c++) {
-            const occ_shadow *shadow = &candidates->shadows[candidates->list[c]];
+            const occ_shadow *shadow = &candidates->set->shadows[candidates->list[c]];
             uint32_t centers = centers_inside(&lanes, shadow, open);
             uint32_t own = shadow->owner - row;
             if (own < OCC_WIDTH) centers &= ~(1u << own);
@@ -369,9 +528,9 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
             held |= centers;
             open &= ~inside_shadow(&lanes, shadow, centers);
         }
-        if (range->fused && open) {
+        if (range->fused && open && candidates->count) {
             uint32_t doubt = open & (held | ~centers_in_frustum(&lanes, eye, range->frustum));
-            open &= ~fuse_objects(boxes, range, eye, candidates, row, doubt);
+            open &= ~fuse_objects(&common, boxes, row, doubt);
         }
         verdict.visible[i / 32] |= open << i % 32;
         verdict.outside[i / 32] |= outside << i % 32;

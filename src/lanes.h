@@ -7,12 +7,14 @@
 
 #include "boxes.h"
 #include "octree.h"
+#include "screen.h"
 #include "verdict.h"
 
 #define OCC_NODE_LANES   8u
 #define OCC_SHADOW_LANES 16u
 
-#define OCC_FACE_LANE 6u
+#define OCC_FACE_LANE   6u
+#define OCC_NO_PLANE_AT 1e30f // the offset in lanes without a plane
 
 // One shadow with its planes side by side: coordinate j of plane p is plane[j][p]. Silhouettes
 // begin at lane 0, faces at OCC_FACE_LANE; everything is inside the planes of the other lanes.
@@ -32,26 +34,8 @@ typedef struct occ_siblings {
     uint32_t frustum_of[OCC_NODE_LANES]; // planes that may cut child c
 } occ_siblings;
 
-// The frozen occluders and a list of those that matter here.
-typedef struct occ_candidates {
-    const occ_shadow *shadows;
-    const occ_wide_shadow *wide; // the same shadows
-    const uint32_t *list;
-    uint32_t count;
-} occ_candidates;
-
-#define OCC_POINTS 9u // the corners of a box, and its center
-
-// A box as the walk sees it: nine points of it, and where it is on the screen, in normalised device
-// coordinates. What is on the screen is a hint: it says which occluders are worth asking.
-typedef struct occ_projection {
-    float x[OCC_SHADOW_LANES], y[OCC_SHADOW_LANES], z[OCC_SHADOW_LANES]; // relative to the eye
-    float u[OCC_SHADOW_LANES], v[OCC_SHADOW_LANES];
-    uint32_t shown;       // bit i: point i is in the picture, as far as floats can tell
-    float min[2], max[2]; // bounds; infinite for a box that is not wholly in front of the eye
-} occ_projection;
-
-// Of sixteen occluders: where each is on the screen, and how near.
+// Of sixteen occluders: where each is on the screen, with room to spare, and how near. What is not
+// there is not in its shadow, so that this can say which of them are worth asking.
 typedef struct occ_rect_block {
     float min[2][OCC_SHADOW_LANES], max[2][OCC_SHADOW_LANES];
     float key[OCC_SHADOW_LANES];
@@ -65,6 +49,13 @@ typedef struct occ_shadow_set {
     uint32_t count;
 } occ_shadow_set;
 
+// The candidates of a range: the frozen occluders and a list of those that matter here.
+typedef struct occ_candidates {
+    const occ_shadow_set *set;
+    const uint32_t *list;
+    uint32_t count;
+} occ_candidates;
+
 // A box that the walk asks about.
 typedef struct occ_question {
     const occ_relative_box *box;
@@ -73,14 +64,15 @@ typedef struct occ_question {
     uint32_t first, rows; // what objects [first, first + rows) own cannot hide it
     float key;            // occluders that are farther do not matter
     bool fuse;            // whether occluders may hide it together
+    bool upright;         // the box is axis-aligned, with its axes in order
+    uint32_t *hint;       // which corner to ask first: that which showed last
 } occ_question;
 
 typedef struct occ_lanes {
     const char *name;
 
     // Where a box is on the screen.
-    void (*project)(const float screen[3][3], float w, const occ_relative_box *box,
-                    occ_projection *seen);
+    void (*project)(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen);
 
     // Whether the occluders hide a box.
     bool (*hide)(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye);
@@ -95,7 +87,7 @@ typedef struct occ_lanes {
 
     // Decides the objects of a range.
     occ_verdict (*test)(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
-                        const occ_candidates *candidates);
+                        const occ_screen *screen, const occ_candidates *candidates);
 } occ_lanes;
 
 // The widest that this CPU runs.

@@ -34,7 +34,7 @@ void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow)
 {
     *wide = (occ_wide_shadow){{{0.0f}}};
     for (uint32_t l = 0; l < OCC_SHADOW_LANES; l++)
-        wide->plane[3][l] = 1e30f;
+        wide->plane[3][l] = OCC_NO_PLANE_AT;
     uint32_t silhouettes = occ_shadow_silhouettes(shadow);
     for (uint32_t p = 0; p < shadow->planes; p++) {
         uint32_t lane = p < silhouettes ? p : OCC_FACE_LANE + p - silhouettes;

@@ -10,7 +10,7 @@
 #include "lanes.h"
 
 #define OCC_MOST_SHADOW_BLOCKS 256u // beyond, shadows hide alone
-#define PLANE_GROUPS           ((OCC_FACE_LANE + 3 + OCC_WIDTH - 1) / OCC_WIDTH)
+#define LAST_LANE              8u   // a third face
 
 typedef struct fusion_lanes {
     piece_lanes stack[OCC_FUSION_STACK + 1]; // cut_piece() needs room for one more
@@ -35,24 +35,61 @@ typedef struct contact {
     bool held;        // it holds the box's center
 } contact;
 
+// Adds what lanes from `l` on say.
+static inline void meet_planes(contact *met, uint32_t l, uint32_t outside, uint32_t inside,
+                               uint32_t held)
+{
+    const uint32_t all = (1u << OCC_NODE_WIDTH) - 1u;
+    met->apart |= outside != 0;
+    met->cutting |= (inside ^ all) << l;
+    met->held &= held == all;
+}
+
+// The third face, if there is one.
+static inline void meet_last_plane(contact *met, const occ_wide_shadow *shadow,
+                                   const occ_relative_box *box)
+{
+    occ_cutter n = cutter_of(shadow, LAST_LANE);
+    if (n.d == OCC_NO_PLANE_AT) return;
+    float s = OCC_PLANE_AT(n.x, n.y, n.z, n.d, box->t[0], box->t[1], box->t[2]);
+    float r = occ_box_reach(box, n.x, n.y, n.z);
+    met->apart = OCC_IS_OUTSIDE(s, r, box->e);
+    met->cutting |= (uint32_t)!OCC_IS_INSIDE(s, r, box->e) << LAST_LANE;
+    met->held &= s > box->e;
+}
+
 static inline contact meet(const occ_relative_box *box, const occ_wide_shadow *shadow)
 {
     const float *t = box->t, *a = box->a;
-    uint32_t cutting = 0, beyond = 0;
-    for (uint32_t g = 0; g < PLANE_GROUPS; g++) {
-        fwide x = load_wide(shadow->plane[0] + g * OCC_WIDTH);
-        fwide y = load_wide(shadow->plane[1] + g * OCC_WIDTH);
-        fwide z = load_wide(shadow->plane[2] + g * OCC_WIDTH);
-        fwide s =
-            OCC_PLANE_AT(x, y, z, load_wide(shadow->plane[3] + g * OCC_WIDTH), t[0], t[1], t[2]);
-        fwide r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
+    contact met = {.held = true};
+    for (uint32_t l = 0; l < LAST_LANE && !met.apart; l += OCC_NODE_WIDTH) {
+        fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
+        fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
+        fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
+        fnode r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
         r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
         r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
-        if (bits_wide(OCC_IS_OUTSIDE(s, r, box->e))) return (contact){.apart = true};
-        cutting |= (bits_wide(OCC_IS_INSIDE(s, r, box->e)) ^ ALL_WIDE) << g * OCC_WIDTH;
-        beyond |= (bits_wide(s > box->e) ^ ALL_WIDE) << g * OCC_WIDTH;
+        fnode e = splat_node(box->e);
+        meet_planes(&met, l, above_node(-e, s + r), above_node(s - r, e), above_node(s, e));
     }
-    return (contact){false, cutting, !beyond};
+    if (!met.apart) meet_last_plane(&met, shadow, box);
+    return met;
+}
+
+// As meet(), for a box whose axes are those of the coordinates, in order.
+static inline contact meet_upright(const occ_relative_box *box, const occ_wide_shadow *shadow)
+{
+    const float *t = box->t, *a = box->a;
+    contact met = {.held = true};
+    for (uint32_t l = 0; l < LAST_LANE && !met.apart; l += OCC_NODE_WIDTH) {
+        fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
+        fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
+        fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
+        fnode r = OCC_REACH_OF_AABB(x, y, z, a[0], a[4], a[8]), e = splat_node(box->e);
+        meet_planes(&met, l, above_node(-e, s + r), above_node(s - r, e), above_node(s, e));
+    }
+    if (!met.apart) meet_last_plane(&met, shadow, box);
+    return met;
 }
 
 static inline void add_candidate(fusion_lanes *fusion, const occ_wide_shadow *shadow,
@@ -88,16 +125,31 @@ static inline occ_vertex middle_of(const piece_lanes *piece)
 // As occ_shadow_holds().
 static inline bool holds(const occ_wide_shadow *shadow, uint32_t planes, const occ_vertex *middle)
 {
-    for (uint32_t g = 0; g < PLANE_GROUPS; g++) {
-        fwide dw = load_wide(shadow->plane[3] + g * OCC_WIDTH) * middle->w;
-        fwide at = OCC_PLANE_AT(load_wide(shadow->plane[0] + g * OCC_WIDTH),
-                                load_wide(shadow->plane[1] + g * OCC_WIDTH),
-                                load_wide(shadow->plane[2] + g * OCC_WIDTH), dw, middle->x,
-                                middle->y, middle->z);
-        uint32_t held = bits_wide(at > OCC_MIDDLE_LEAST(middle->e, dw));
-        if (planes >> g * OCC_WIDTH & ALL_WIDE & ~held) return false;
+    uint32_t held = 0;
+    for (uint32_t l = 0; l < LAST_LANE; l += OCC_NODE_WIDTH) {
+        fnode dw = load_node(shadow->plane[3] + l) * middle->w;
+        fnode at =
+            OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
+                         load_node(shadow->plane[2] + l), dw, middle->x, middle->y, middle->z);
+        held |= above_node(at, OCC_MIDDLE_LEAST(middle->e, dw)) << l;
     }
-    return true;
+    if (planes & ~held & 0xffu) return false;
+    if (!(planes >> LAST_LANE)) return true;
+    occ_cutter n = cutter_of(shadow, LAST_LANE);
+    return occ_vertex_at(middle, &n) > OCC_MIDDLE_LEAST(middle->e, n.d * middle->w);
+}
+
+// As occ_shadow_holds_point().
+static inline bool holds_point(const occ_wide_shadow *shadow, float x, float y, float z, float e)
+{
+    for (uint32_t l = 0; l < LAST_LANE; l += OCC_NODE_WIDTH) {
+        fnode at =
+            OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
+                         load_node(shadow->plane[2] + l), load_node(shadow->plane[3] + l), x, y, z);
+        if (above_node(at, splat_node(e)) != (1u << OCC_NODE_WIDTH) - 1u) return false;
+    }
+    occ_cutter n = cutter_of(shadow, LAST_LANE);
+    return OCC_PLANE_AT(n.x, n.y, n.z, n.d, x, y, z) > e;
 }
 
 // As occ_fusion_find().
@@ -124,34 +176,6 @@ static inline bool subtract(fusion_lanes *fusion, const occ_wide_shadow *shadow,
         if (cut == OCC_CUT_TWO) fusion->depth++;
     }
     return true;
-}
-
-// As occ_fusion_corner_shows().
-static inline bool corner_shows(const fusion_lanes *fusion, const occ_eye *eye, uint32_t mask)
-{
-    for (uint32_t i = 0; i < fusion->depth; i++) {
-        const piece_lanes *piece = &fusion->stack[i];
-        uint32_t shown = lanes_below(piece->count);
-        for (uint32_t p = 0; p < OCC_SIDE_PLANES; p++) {
-            if (!(mask >> p & 1u)) continue;
-            const float *plane = eye->plane[p];
-            occ_cutter n = {plane[0], plane[1], plane[2], plane[3]};
-            for (uint32_t g = 0; g < VERTEX_GROUPS; g++) {
-                fwide least, at = vertices_at(piece, g * OCC_WIDTH, &n, &least);
-                shown &= ~((bits_wide(at > 0.0f) ^ ALL_WIDE) << g * OCC_WIDTH);
-            }
-        }
-        for (uint32_t c = 0; c < fusion->candidates && shown; c++) {
-            uint32_t held = shown;
-            for (uint32_t planes = fusion->planes[c]; planes && held; planes &= planes - 1u) {
-                occ_cutter n = cutter_of(fusion->candidate[c], (uint32_t)__builtin_ctz(planes));
-                held &= vertices_inside(piece, &n);
-            }
-            shown &= ~held;
-        }
-        if (shown) return true;
-    }
-    return false;
 }
 
 // As occ_fusion_clip().
@@ -204,14 +228,11 @@ static inline void start_fusion(fusion_lanes *fusion)
     fusion->held = false;
 }
 
-// As the rest of occ_box_fused(), once all candidates have been considered.
+// As the rest of occ_box_fused(), once no corner shows.
 static inline bool fuse_candidates(fusion_lanes *fusion, const occ_relative_box *box,
                                    const occ_eye *eye, uint32_t mask)
 {
-    if (!fusion->candidates) return false;
-    if (!fusion->held && occ_center_in_frustum(box, eye, mask)) return false;
     if (!see_outline(fusion, box, eye, false)) return false;
-    if (corner_shows(fusion, eye, mask)) return false;
     if (covers(fusion, eye, mask, false)) return true;
     if (!fusion->faces) return false;
     return see_outline(fusion, box, eye, true) && covers(fusion, eye, mask, true);

@@ -39,11 +39,12 @@ bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)
     return (double)reach >= (double)frame->knobs.min_area * area;
 }
 
+// Where an occluder is on the screen, with more room than projections round (2^-13).
 static void put_rect(occ_rect_block *block, uint32_t lane, const occ_projection *seen, float key)
 {
     for (int j = 0; j < 2; j++) {
-        block->min[j][lane] = seen->min[j];
-        block->max[j][lane] = seen->max[j];
+        block->min[j][lane] = seen->min[j] - (1.0f + fabsf(seen->min[j])) * 0x1p-10f;
+        block->max[j][lane] = seen->max[j] + (1.0f + fabsf(seen->max[j])) * 0x1p-10f;
     }
     block->key[lane] = key;
 }

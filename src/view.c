@@ -98,11 +98,11 @@ static occ_result run_test(occ_view *view)
         return OCC_ERROR_OUT_OF_MEMORY;
     }
     frame->verdicts.count = frame->ranges.count;
+    occ_shadow_set set = occ_occluders_so_far(frame);
     occ_test_job job = {.scene = frame->scene,
                         .eye = &frame->camera.constants,
-                        .shadows = frame->shadows.data,
-                        .wide = frame->wide.data,
-                        .shadow_count = frame->shadows.count,
+                        .screen = &frame->camera.screen,
+                        .set = &set,
                         .ranges = frame->ranges.data,
                         .range_count = frame->ranges.count,
                         .candidates = frame->candidates.data,

@@ -42,17 +42,24 @@ static bool is_fused(const occ_frame *frame)
 // Where a box is on the screen.
 static occ_projection project(const occ_frame *frame, const occ_relative_box *box)
 {
-    const occ_camera *camera = &frame->camera;
     occ_projection seen;
-    frame->lanes->project(camera->screen, camera->screen_w, box, &seen);
+    frame->lanes->project(&frame->camera.screen, box, &seen);
     return seen;
 }
 
 // Whether the occluders so far hide a box; those that objects [first, first + rows) own do not.
-static bool is_hidden(const occ_frame *frame, const occ_relative_box *box,
-                      const occ_projection *seen, uint32_t planes, uint32_t first, uint32_t rows)
+static bool is_hidden(occ_frame *frame, const occ_relative_box *box, const occ_projection *seen,
+                      uint32_t planes, uint32_t first, uint32_t rows)
 {
-    occ_question question = {box, seen, planes, first, rows, INFINITY, is_fused(frame)};
+    occ_question question = {.box = box,
+                             .seen = seen,
+                             .frustum = planes,
+                             .first = first,
+                             .rows = rows,
+                             .key = INFINITY,
+                             .fuse = is_fused(frame),
+                             .upright = rows > 0,
+                             .hint = &frame->hint};
     occ_shadow_set set = occ_occluders_so_far(frame);
     return set.count && frame->lanes->hide(&question, &set, &frame->camera.constants);
 }
@@ -92,9 +99,12 @@ static occ_result close_range(occ_frame *frame, const open_range *open)
     occ_shadow_set set = occ_occluders_so_far(frame);
     uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, (size_t)set.count + 1);
     if (!list) return OCC_ERROR_OUT_OF_MEMORY;
-    occ_question question = {&box,        &seen,       open->planes,
-                             open->first, open->count, occ_frame_farness(frame, box.t, h),
-                             false};
+    occ_question question = {.box = &box,
+                             .seen = &seen,
+                             .first = open->first,
+                             .rows = open->count,
+                             .key = occ_frame_farness(frame, box.t, h),
+                             .upright = true};
     uint32_t begin = frame->candidates.count, count;
     if (frame->lanes->gather(&question, &set, list, &count)) {
         frame->stats.walk_hidden += open->count;
