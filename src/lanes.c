@@ -41,7 +41,8 @@ static void project_center(const occ_screen *screen, const float p[3], occ_proje
     }
 }
 
-static void project(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen)
+static void project_corners(const occ_screen *screen, const occ_relative_box *box,
+                            occ_projection *seen)
 {
     const float(*row)[3] = screen->row;
     uint32_t clear = 0;
@@ -67,6 +68,11 @@ static void project(const occ_screen *screen, const occ_relative_box *box, occ_p
     seen->min[1] = whole ? least_of_eight(seen->v) : -INFINITY;
     seen->max[0] = whole ? largest_of_eight(seen->u) : INFINITY;
     seen->max[1] = whole ? largest_of_eight(seen->v) : INFINITY;
+}
+
+static void project(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen)
+{
+    project_corners(screen, box, seen);
     project_center(screen, box->t, seen);
 }
 
@@ -172,15 +178,17 @@ static inline bool ask_corner(const occ_question *question, const occ_shadow_set
     const occ_projection *seen = question->seen;
     bool any = false;
     for (uint32_t b = 0; b < blocks; b++) {
+        if (any && !holders[b]) continue;
         uint32_t first = b * OCC_SHADOW_LANES, held = 0;
         uint32_t near = present(block_near_point(&set->rects[b], seen, k), set->count - first);
+        if (any) near &= holders[b];
         for (; near; near &= near - 1u) {
             uint32_t lane = (uint32_t)__builtin_ctz(near), i = first + lane;
-            if (any && !(holders[b] >> lane & 1u)) continue;
             if (!holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e))
                 continue;
             if (is_own(question, set, i)) continue;
             held |= 1u << lane;
+            if (!any) near &= holders[b] | 1u << lane;
             any = true;
         }
         holders[b] &= (uint16_t)held;
@@ -211,17 +219,21 @@ static inline bool ask_together(const occ_question *question, const occ_shadow_s
 
 // Points first: what no occluder holds shows. (That a point is inside the box, or on its far side,
 // does not matter: on the way from it to the eye no shadow begins.)
-static bool hide(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye)
+static bool hide(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye,
+                 const occ_screen *screen)
 {
+    occ_projection *seen = question->seen;
     uint16_t holders[OCC_MOST_SHADOW_BLOCKS];
     const occ_relative_box *box = question->box;
     uint32_t blocks = (set->count + OCC_SHADOW_LANES - 1u) / OCC_SHADOW_LANES;
     if (blocks > OCC_MOST_SHADOW_BLOCKS) blocks = OCC_MOST_SHADOW_BLOCKS;
     bool held = false;
+    project_center(screen, box->t, seen);
     if (ask_center(question, set, blocks, holders, &held)) return true;
     if (!held && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, question->frustum))
         return false;
-    uint32_t shown = corners_in_frustum(question->seen, eye, question->frustum);
+    project_corners(screen, box, seen);
+    uint32_t shown = corners_in_frustum(seen, eye, question->frustum);
     for (uint32_t i = 0; i < 8; i++) {
         uint32_t k = (i + *question->hint) & 7u;
         if (!(shown >> k & 1u) || ask_corner(question, set, blocks, holders, k)) continue;
@@ -467,7 +479,7 @@ static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row
     const occ_candidates *candidates = common->candidates;
     occ_projection seen;
     fusion_lanes fusion;
-    project(common->screen, box, &seen);
+    project_corners(common->screen, box, &seen);
     uint32_t shown = corners_in_frustum(&seen, common->eye, common->range->frustum);
     for (uint32_t i = 0; i < 8; i++) {
         uint32_t k = (i + common->hint) & 7u;

@@ -59,7 +59,7 @@ typedef struct occ_candidates {
 // A box that the walk asks about.
 typedef struct occ_question {
     const occ_relative_box *box;
-    const occ_projection *seen;
+    occ_projection *seen; // filled in as far as need be
     uint32_t frustum;     // planes that may cut it
     uint32_t first, rows; // what objects [first, first + rows) own cannot hide it
     float key;            // occluders that are farther do not matter
@@ -75,7 +75,8 @@ typedef struct occ_lanes {
     void (*project)(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen);
 
     // Whether the occluders hide a box.
-    bool (*hide)(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye);
+    bool (*hide)(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye,
+                 const occ_screen *screen);
 
     // Lists those that touch a box, for which there is room, and sets *count; or returns true: one
     // of them hides it.

@@ -48,7 +48,7 @@ static occ_projection project(const occ_frame *frame, const occ_relative_box *bo
 }
 
 // Whether the occluders so far hide a box; those that objects [first, first + rows) own do not.
-static bool is_hidden(occ_frame *frame, const occ_relative_box *box, const occ_projection *seen,
+static bool is_hidden(occ_frame *frame, const occ_relative_box *box, occ_projection *seen,
                       uint32_t planes, uint32_t first, uint32_t rows)
 {
     occ_question question = {.box = box,
@@ -61,7 +61,8 @@ static bool is_hidden(occ_frame *frame, const occ_relative_box *box, const occ_p
                              .upright = rows > 0,
                              .hint = &frame->hint};
     occ_shadow_set set = occ_occluders_so_far(frame);
-    return set.count && frame->lanes->hide(&question, &set, &frame->camera.constants);
+    return set.count &&
+           frame->lanes->hide(&question, &set, &frame->camera.constants, &frame->camera.screen);
 }
 
 // --- what stays open -----------------------------------------------------------------------------
@@ -144,8 +145,9 @@ static occ_result visit_occluder(occ_frame *frame, const occ_walk_entry *entry)
     frame->stats.occluders_tested++;
     const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
     occ_relative_box box = occ_frame_relative(frame, &boxes[entry->index]);
-    occ_projection seen = project(frame, &box);
+    occ_projection seen;
     if (is_hidden(frame, &box, &seen, entry->what & OCC_WALK_PLANES, 0, 0)) return OCC_SUCCESS;
+    seen = project(frame, &box);
     return occ_occluders_add(frame, entry->index, entry->key, &seen);
 }
 
@@ -204,7 +206,7 @@ static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
     occ_relative_box box = relative_node(frame, node);
-    occ_projection seen = project(frame, &box);
+    occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     if (is_hidden(frame, &box, &seen, planes, node->first, node->count)) {
         frame->stats.walk_hidden += node->count;
@@ -229,7 +231,7 @@ static occ_result visit_free(occ_frame *frame, const occ_walk_entry *entry)
     const occ_octree *tree = &frame->scene->occluder_tree;
     const occ_node *node = occ_octree_nodes(tree) + entry->index;
     occ_relative_box box = relative_node(frame, node);
-    occ_projection seen = project(frame, &box);
+    occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     frame->stats.nodes_tested++;
     if (is_hidden(frame, &box, &seen, planes, 0, 0)) return OCC_SUCCESS;
