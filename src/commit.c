@@ -3,44 +3,12 @@
 // and the root cube alone, so an edited scene equals one built in the same state.
 #include "scene_data.h"
 
+#include "bounds.h"
 #include "log.h"
-#include "rounding.h"
+#include "threads.h"
 
 #include <math.h>
 #include <string.h>
-
-float occ_occluder_reach(const occ_box *box)
-{
-    double area = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const float *a = box->axis[k], *b = box->axis[(k + 1) % 3];
-        double x = (double)a[1] * (double)b[2] - (double)a[2] * (double)b[1];
-        double y = (double)a[2] * (double)b[0] - (double)a[0] * (double)b[2];
-        double z = (double)a[0] * (double)b[1] - (double)a[1] * (double)b[0];
-        area += 4.0 * sqrt(x * x + y * y + z * z);
-    }
-    return area < 1e38 ? occ_round_up(area * (1.0 + 0x1p-40)) : 3e38f;
-}
-
-// The bounds of every item of a table, made once for the root, the keys and the nodes.
-typedef struct bounds {
-    float min[3], max[3];
-} bounds;
-
-static void read_bounds(const void *table, uint32_t row, float min[3], float max[3])
-{
-    const bounds *b = (const bounds *)table + row;
-    memcpy(min, b->min, sizeof b->min);
-    memcpy(max, b->max, sizeof b->max);
-}
-
-// `table` has room for `rows` elements; which of them are read is up to the tree.
-static occ_tree_items cache_bounds(const occ_tree_items *items, uint32_t rows, bounds *table)
-{
-    for (uint32_t row = 0; row < rows; row++)
-        items->bounds(items->table, row, table[row].min, table[row].max);
-    return (occ_tree_items){table, read_bounds};
-}
 
 // The rows of the objects that are there, in the order of their slots.
 static void list_rows(const occ_scene *scene, uint32_t *rows)
@@ -50,71 +18,103 @@ static void list_rows(const occ_scene *scene, uint32_t *rows)
         if (occ_slots_is_taken(&scene->objects, s)) rows[count++] = scene->objects.value[s];
 }
 
-// Puts the tables into the tree's order: row i becomes what row rows[i] was.
-static void reorder_tables(occ_scene *scene, const uint32_t *rows, uint32_t count, void *scratch)
+// The same in ascending order: NULL if that is all rows there are.
+static const uint32_t *list_ascending(const occ_scene *scene, uint32_t *rows)
 {
-    uint32_t *slot_of = scene->slot_of.data, *moved = scratch;
-    occ_boxes_gather(&scene->boxes, rows, count, scratch);
-    for (uint32_t i = 0; i < count; i++)
-        moved[i] = slot_of[rows[i]];
-    for (uint32_t i = 0; i < count; i++) {
-        slot_of[i] = moved[i];
-        scene->objects.value[moved[i]] = i;
+    uint32_t count = 0;
+    if (scene->objects.taken == scene->boxes.count) return NULL;
+    for (uint32_t row = 0; row < scene->boxes.count; row++)
+        if (occ_scene_slot_of(scene)[row] != OCC_NO_SLOT) rows[count++] = row;
+    return rows;
+}
+
+// Puts the tables into the tree's order: row i becomes what row rows[i] was.
+typedef struct reorder_job {
+    uint32_t *slot_of, *moved, *row_of;
+    const uint32_t *rows;
+    uint32_t count, parts;
+} reorder_job;
+
+static void pick_slots(void *context, uint32_t part)
+{
+    const reorder_job *job = context;
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
+        job->moved[i] = job->slot_of[job->rows[i]];
+}
+
+static void put_slots(void *context, uint32_t part)
+{
+    const reorder_job *job = context;
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++) {
+        job->slot_of[i] = job->moved[i];
+        job->row_of[job->moved[i]] = i;
     }
+}
+
+// Takes scratch memory for `columns` columns of `count` numbers.
+static void reorder_tables(occ_scene *scene, const uint32_t *rows, uint32_t count, void *scratch,
+                           uint32_t columns)
+{
+    occ_boxes_gather(&scene->boxes, rows, count, scratch, columns, scene->threads);
+    reorder_job job = {scene->slot_of.data, scratch, scene->objects.value, rows, count,
+                       occ_parts_of(count)};
+    occ_do_parts(scene->threads, job.parts, pick_slots, &job);
+    occ_do_parts(scene->threads, job.parts, put_slots, &job);
     scene->slot_of.count = count;
 }
 
-static occ_result sort_objects(occ_scene *scene, uint32_t *rows, uint32_t count, bounds *table)
+// Sorts the objects and builds their tree. Nothing has changed unless all went well.
+static occ_result sort_objects(occ_scene *scene, uint32_t *rows, uint32_t count, void *room)
 {
     occ_tree_items items = occ_scene_object_items(scene);
-    items = cache_bounds(&items, scene->boxes.count, table);
+    const uint32_t *ascending = list_ascending(scene, rows);
+    occ_root root = occ_octree_root(&items, ascending, count, scene->threads);
     list_rows(scene, rows);
-    occ_root root = occ_octree_root(&items, rows, count);
-    return occ_octree_build(&scene->hooks, &scene->object_tree, &items, &root, rows, count);
+    return occ_octree_build(&scene->hooks, &scene->object_tree, &items, scene->boxes.count, &root,
+                            rows, count, room, scene->threads);
 }
 
 static occ_result rebuild_objects(occ_scene *scene)
 {
     uint32_t count = scene->objects.taken;
     size_t bytes = (size_t)count * sizeof(uint32_t);
-    size_t table_bytes = (size_t)scene->boxes.count * sizeof(bounds);
+    size_t room_bytes = occ_octree_room(scene->boxes.count, count, scene->threads);
     size_t words = count / (OCC_CHANGE_ROWS * 32u) + 1u;
-    uint32_t *rows = occ_alloc(&scene->hooks, bytes), *scratch = occ_alloc(&scene->hooks, bytes);
-    bounds *table = occ_alloc(&scene->hooks, table_bytes);
+    uint32_t *rows = occ_alloc(&scene->hooks, bytes);
+    void *room = occ_alloc(&scene->hooks, room_bytes);
     occ_result result = OCC_SUCCESS;
-    if (count && (!rows || !scratch || !table)) result = OCC_ERROR_OUT_OF_MEMORY;
+    if (count && (!rows || !room)) result = OCC_ERROR_OUT_OF_MEMORY;
     if (!result) result = occ_array_reserve(&scene->hooks, &scene->changed, words);
-    if (!result) result = sort_objects(scene, rows, count, table);
+    if (!result) result = sort_objects(scene, rows, count, room);
     if (!result) {
-        reorder_tables(scene, rows, count, scratch);
+        size_t columns = count ? room_bytes / bytes : 0;
+        reorder_tables(scene, rows, count, room,
+                       columns < OCC_BOX_COLUMNS ? (uint32_t)columns : OCC_BOX_COLUMNS);
+        occ_tree_items items = occ_scene_object_items(scene);
+        occ_octree_refit(&scene->object_tree, &items, NULL, scene->threads);
         scene->changed.count = (uint32_t)words;
         scene->all_changed = true;
         occ_slots_recycle(&scene->objects);
     }
     occ_free(&scene->hooks, rows, bytes);
-    occ_free(&scene->hooks, scratch, bytes);
-    occ_free(&scene->hooks, table, table_bytes);
+    occ_free(&scene->hooks, room, room_bytes);
     return result;
 }
 
 // The cheap path, for moves that left every object in its cell. False: the cells have changed too.
-static occ_result refit_objects(occ_scene *scene, bool *fits)
+static bool refit_objects(occ_scene *scene)
 {
-    size_t bytes = (size_t)scene->boxes.count * sizeof(bounds);
-    bounds *table = occ_alloc(&scene->hooks, bytes);
-    if (!table) return OCC_ERROR_OUT_OF_MEMORY;
     occ_tree_items items = occ_scene_object_items(scene);
-    items = cache_bounds(&items, scene->boxes.count, table);
-    occ_root root = occ_octree_root(&items, NULL, scene->boxes.count);
-    *fits = occ_root_equals(&root, &scene->object_tree.root);
-    if (*fits) occ_octree_refit(&scene->object_tree, &items, NULL);
-    occ_free(&scene->hooks, table, bytes);
-    return OCC_SUCCESS;
+    occ_root root = occ_octree_root(&items, NULL, scene->boxes.count, scene->threads);
+    if (!occ_root_equals(&root, &scene->object_tree.root)) return false;
+    occ_octree_refit(&scene->object_tree, &items, NULL, scene->threads);
+    return true;
 }
 
 static occ_result commit_objects(occ_scene *scene)
 {
-    bool fits = false;
     if (!scene->objects_reordered && !scene->objects_moved) {
         if (scene->changed.count) {
             memset(scene->changed.data, 0, (size_t)scene->changed.count * sizeof(uint32_t));
@@ -123,30 +123,49 @@ static occ_result commit_objects(occ_scene *scene)
         return OCC_SUCCESS;
     }
     if (!scene->objects_reordered) {
-        occ_result result = refit_objects(scene, &fits);
-        if (result || fits) return result;
+        if (refit_objects(scene)) return OCC_SUCCESS;
         scene->objects_reordered = true;
     }
     return rebuild_objects(scene);
 }
 
-// The largest reach below each node, from the last node to the root.
+typedef struct reach_job {
+    const occ_scene *scene;
+    uint32_t parts;
+} reach_job;
+
+// The largest reach among each node's own occluders.
+static void reach_of_own(void *context, uint32_t part)
+{
+    const reach_job *job = context;
+    const occ_octree *tree = &job->scene->occluder_tree;
+    const uint32_t *order = job->scene->occluder_order.data;
+    float *reach = job->scene->reach.data, found[OCC_BLOCK];
+    uint32_t last = occ_part_first(tree->nodes.count, job->parts, part + 1);
+    for (uint32_t n = occ_part_first(tree->nodes.count, job->parts, part); n < last; n++) {
+        const occ_node *node = &occ_octree_nodes(tree)[n];
+        uint32_t end = node->first + occ_node_own(tree, node);
+        reach[n] = 0.0f;
+        for (uint32_t i = node->first; i < end; i += OCC_BLOCK) {
+            uint32_t count = end - i < OCC_BLOCK ? end - i : OCC_BLOCK;
+            occ_reaches_of_array(occ_scene_occluder_boxes(job->scene), order + i, count, found);
+            for (uint32_t k = 0; k < count; k++)
+                reach[n] = found[k] > reach[n] ? found[k] : reach[n];
+        }
+    }
+}
+
+// The largest reach below each node.
 static void refit_reach(occ_scene *scene)
 {
     const occ_octree *tree = &scene->occluder_tree;
     const occ_node *nodes = occ_octree_nodes(tree);
-    const uint32_t *order = scene->occluder_order.data;
     float *reach = scene->reach.data;
-    for (uint32_t n = tree->nodes.count; n-- > 0;) {
-        float most = 0.0f;
-        for (uint32_t i = 0, own = occ_node_own(tree, &nodes[n]); i < own; i++) {
-            uint32_t slot = order[nodes[n].first + i];
-            most = fmaxf(most, occ_occluder_reach(&occ_scene_occluder_boxes(scene)[slot]));
-        }
+    reach_job job = {scene, occ_parts_of(scene->occluder_order.count)};
+    occ_do_parts(scene->threads, job.parts, reach_of_own, &job);
+    for (uint32_t n = tree->nodes.count; n-- > 0;) // children lie after their parent
         for (uint32_t c = 0; c < nodes[n].children; c++)
-            most = fmaxf(most, reach[nodes[n].child + c]);
-        reach[n] = most;
-    }
+            reach[n] = fmaxf(reach[n], reach[nodes[n].child + c]);
 }
 
 // Removes the occluders whose owners are gone.
@@ -172,13 +191,18 @@ static uint32_t list_occluders(const occ_scene *scene, uint32_t *slots)
 
 static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *items)
 {
-    uint32_t count = scene->occluders.taken;
+    uint32_t count = scene->occluders.taken, slots = scene->occluders.count;
     occ_result result = occ_array_reserve(&scene->hooks, &scene->occluder_order, count);
     if (result) return result;
     uint32_t *order = scene->occluder_order.data;
     scene->occluder_order.count = list_occluders(scene, order);
-    occ_root root = occ_octree_root(items, order, count);
-    result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, &root, order, count);
+    size_t bytes = occ_octree_room(slots, count, scene->threads);
+    void *room = occ_alloc(&scene->hooks, bytes);
+    if (bytes && !room) return OCC_ERROR_OUT_OF_MEMORY;
+    occ_root root = occ_octree_root(items, order, count, scene->threads);
+    result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, slots, &root, order,
+                              count, room, scene->threads);
+    occ_free(&scene->hooks, room, bytes);
     if (!result) {
         uint32_t nodes = scene->occluder_tree.nodes.count;
         result = occ_array_reserve(&scene->hooks, &scene->reach, nodes);
@@ -188,33 +212,23 @@ static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *item
     return result;
 }
 
-static occ_result refit_occluders(occ_scene *scene, const occ_tree_items *items)
-{
-    const uint32_t *order = scene->occluder_order.data;
-    if (!scene->occluders_reordered) {
-        occ_root root = occ_octree_root(items, order, scene->occluder_order.count);
-        if (occ_root_equals(&root, &scene->occluder_tree.root)) {
-            occ_octree_refit(&scene->occluder_tree, items, order);
-            return OCC_SUCCESS;
-        }
-        scene->occluders_reordered = true;
-    }
-    return rebuild_occluders(scene, items);
-}
-
 static occ_result commit_occluders(occ_scene *scene)
 {
     if (!scene->occluders_reordered && !scene->occluders_moved) return OCC_SUCCESS;
-    uint32_t slots = scene->occluders.count;
-    size_t bytes = (size_t)slots * sizeof(bounds);
-    bounds *table = occ_alloc(&scene->hooks, bytes);
-    if (!table) return OCC_ERROR_OUT_OF_MEMORY;
     occ_tree_items items = occ_scene_occluder_items(scene);
-    items = cache_bounds(&items, slots, table);
-    occ_result result = refit_occluders(scene, &items);
-    if (!result) refit_reach(scene);
-    occ_free(&scene->hooks, table, bytes);
-    return result;
+    const uint32_t *order = scene->occluder_order.data;
+    if (!scene->occluders_reordered) {
+        uint32_t count = scene->occluder_order.count;
+        occ_root root = occ_octree_root(&items, order, count, scene->threads);
+        scene->occluders_reordered = !occ_root_equals(&root, &scene->occluder_tree.root);
+    }
+    if (scene->occluders_reordered) {
+        occ_result result = rebuild_occluders(scene, &items);
+        if (result) return result;
+    }
+    occ_octree_refit(&scene->occluder_tree, &items, scene->occluder_order.data, scene->threads);
+    refit_reach(scene);
+    return OCC_SUCCESS;
 }
 
 occ_result occ_scene_commit(occ_scene *scene)

@@ -19,6 +19,7 @@
 struct occ_scene {
     occ_hooks hooks;
     uint64_t id;       // no other scene of this process has it
+    uint32_t threads;  // of a commit
     uint64_t revision; // counts the commits of the objects: `changed` leads from the one before
 
     occ_slots objects;
@@ -56,9 +57,6 @@ static inline const occ_box *occ_scene_occluder_boxes(const occ_scene *scene)
 {
     return scene->occluder_boxes.data;
 }
-
-// An upper bound on the area that a box shows to any direction.
-float occ_occluder_reach(const occ_box *box);
 
 // How the octrees see the two kinds of items.
 occ_tree_items occ_scene_object_items(const occ_scene *scene);

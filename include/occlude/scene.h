@@ -60,6 +60,8 @@ typedef struct occ_scene_desc {
     uint32_t object_count;   ///< Objects to reserve room for. Default 0: grow as they come.
     uint32_t occluder_count; ///< Occluders to reserve room for. Default 0: grow as they come.
     uint32_t leaf_objects;   ///< Most objects in an octree leaf, 1 to 1024. Default 64.
+    uint32_t threads;        ///< OpenMP threads of a commit, 1024 at most. Default 0: what OpenMP
+                             ///< offers. A small scene is committed on one all the same.
 } occ_scene_desc;
 
 /// Objects, occluders, and an octree over each. See the thread rules in occlude.h.
