@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boxes.h"
 
-#include "threads.h"
-
 #include <string.h>
 
 static size_t bytes_of(const occ_boxes *boxes)
@@ -93,14 +91,14 @@ static void put_part(void *context, uint32_t part)
 }
 
 void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch,
-                      uint32_t scratch_columns, uint32_t threads)
+                      uint32_t scratch_columns, occ_team *team)
 {
     gather_job job = {boxes, source, scratch, count, occ_parts_of(count), 0, scratch_columns};
     for (; count && job.column < OCC_BOX_COLUMNS; job.column += job.columns) {
         uint32_t left = OCC_BOX_COLUMNS - job.column;
         if (job.columns > left) job.columns = left;
-        occ_do_parts(threads, job.parts, pick_part, &job);
-        occ_do_parts(threads, job.parts, put_part, &job);
+        occ_do_parts(team, job.parts, pick_part, &job);
+        occ_do_parts(team, job.parts, put_part, &job);
     }
     boxes->count = count;
 }

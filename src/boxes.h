@@ -9,6 +9,7 @@
 
 #include "blocks.h"
 #include "memory.h"
+#include "team.h"
 
 #include <occlude/scene.h>
 
@@ -37,6 +38,6 @@ void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box);
 // Row i becomes what row source[i] was, for i < count; `count` becomes the new length. `scratch`
 // has room for `scratch_columns` times `count` floats, 1 to OCC_BOX_COLUMNS.
 void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch,
-                      uint32_t scratch_columns, uint32_t threads);
+                      uint32_t scratch_columns, occ_team *team);
 
 #endif

@@ -5,7 +5,6 @@
 
 #include "bounds.h"
 #include "log.h"
-#include "threads.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,46 +53,47 @@ static void put_slots(void *context, uint32_t part)
 }
 
 // Takes scratch memory for `columns` columns of `count` numbers.
-static void reorder_tables(occ_scene *scene, const uint32_t *rows, uint32_t count, void *scratch,
-                           uint32_t columns)
+static void reorder_tables(occ_scene *scene, occ_team *team, const uint32_t *rows, uint32_t count,
+                           void *scratch, uint32_t columns)
 {
-    occ_boxes_gather(&scene->boxes, rows, count, scratch, columns, scene->threads);
+    occ_boxes_gather(&scene->boxes, rows, count, scratch, columns, team);
     reorder_job job = {scene->slot_of.data, scratch, scene->objects.value, rows, count,
                        occ_parts_of(count)};
-    occ_do_parts(scene->threads, job.parts, pick_slots, &job);
-    occ_do_parts(scene->threads, job.parts, put_slots, &job);
+    occ_do_parts(team, job.parts, pick_slots, &job);
+    occ_do_parts(team, job.parts, put_slots, &job);
     scene->slot_of.count = count;
 }
 
 // Sorts the objects and builds their tree. Nothing has changed unless all went well.
-static occ_result sort_objects(occ_scene *scene, uint32_t *rows, uint32_t count, void *room)
+static occ_result sort_objects(occ_scene *scene, occ_team *team, uint32_t *rows, uint32_t count,
+                               void *room)
 {
     occ_tree_items items = occ_scene_object_items(scene);
     const uint32_t *ascending = list_ascending(scene, rows);
-    occ_root root = occ_octree_root(&items, ascending, count, scene->threads);
+    occ_root root = occ_octree_root(&items, ascending, count, team);
     list_rows(scene, rows);
     return occ_octree_build(&scene->hooks, &scene->object_tree, &items, scene->boxes.count, &root,
-                            rows, count, room, scene->threads);
+                            rows, count, room, team);
 }
 
-static occ_result rebuild_objects(occ_scene *scene)
+static occ_result rebuild_objects(occ_scene *scene, occ_team *team)
 {
     uint32_t count = scene->objects.taken;
     size_t bytes = (size_t)count * sizeof(uint32_t);
-    size_t room_bytes = occ_octree_room(scene->boxes.count, count, scene->threads);
+    size_t room_bytes = occ_octree_room(scene->boxes.count, count, team);
     size_t words = count / (OCC_CHANGE_ROWS * 32u) + 1u;
     uint32_t *rows = occ_alloc(&scene->hooks, bytes);
     void *room = occ_alloc(&scene->hooks, room_bytes);
     occ_result result = OCC_SUCCESS;
     if (count && (!rows || !room)) result = OCC_ERROR_OUT_OF_MEMORY;
     if (!result) result = occ_array_reserve(&scene->hooks, &scene->changed, words);
-    if (!result) result = sort_objects(scene, rows, count, room);
+    if (!result) result = sort_objects(scene, team, rows, count, room);
     if (!result) {
         size_t columns = count ? room_bytes / bytes : 0;
-        reorder_tables(scene, rows, count, room,
+        reorder_tables(scene, team, rows, count, room,
                        columns < OCC_BOX_COLUMNS ? (uint32_t)columns : OCC_BOX_COLUMNS);
         occ_tree_items items = occ_scene_object_items(scene);
-        occ_octree_refit(&scene->object_tree, &items, NULL, scene->threads);
+        occ_octree_refit(&scene->object_tree, &items, NULL, team);
         scene->changed.count = (uint32_t)words;
         scene->all_changed = true;
         occ_slots_recycle(&scene->objects);
@@ -104,16 +104,16 @@ static occ_result rebuild_objects(occ_scene *scene)
 }
 
 // The cheap path, for moves that left every object in its cell. False: the cells have changed too.
-static bool refit_objects(occ_scene *scene)
+static bool refit_objects(occ_scene *scene, occ_team *team)
 {
     occ_tree_items items = occ_scene_object_items(scene);
-    occ_root root = occ_octree_root(&items, NULL, scene->boxes.count, scene->threads);
+    occ_root root = occ_octree_root(&items, NULL, scene->boxes.count, team);
     if (!occ_root_equals(&root, &scene->object_tree.root)) return false;
-    occ_octree_refit(&scene->object_tree, &items, NULL, scene->threads);
+    occ_octree_refit(&scene->object_tree, &items, NULL, team);
     return true;
 }
 
-static occ_result commit_objects(occ_scene *scene)
+static occ_result commit_objects(occ_scene *scene, occ_team *team)
 {
     if (!scene->objects_reordered && !scene->objects_moved) {
         if (scene->changed.count) {
@@ -123,10 +123,10 @@ static occ_result commit_objects(occ_scene *scene)
         return OCC_SUCCESS;
     }
     if (!scene->objects_reordered) {
-        if (refit_objects(scene)) return OCC_SUCCESS;
+        if (refit_objects(scene, team)) return OCC_SUCCESS;
         scene->objects_reordered = true;
     }
-    return rebuild_objects(scene);
+    return rebuild_objects(scene, team);
 }
 
 typedef struct reach_job {
@@ -156,13 +156,13 @@ static void reach_of_own(void *context, uint32_t part)
 }
 
 // The largest reach below each node.
-static void refit_reach(occ_scene *scene)
+static void refit_reach(occ_scene *scene, occ_team *team)
 {
     const occ_octree *tree = &scene->occluder_tree;
     const occ_node *nodes = occ_octree_nodes(tree);
     float *reach = scene->reach.data;
     reach_job job = {scene, occ_parts_of(scene->occluder_order.count)};
-    occ_do_parts(scene->threads, job.parts, reach_of_own, &job);
+    occ_do_parts(team, job.parts, reach_of_own, &job);
     for (uint32_t n = tree->nodes.count; n-- > 0;) // children lie after their parent
         for (uint32_t c = 0; c < nodes[n].children; c++)
             reach[n] = fmaxf(reach[n], reach[nodes[n].child + c]);
@@ -189,19 +189,19 @@ static uint32_t list_occluders(const occ_scene *scene, uint32_t *slots)
     return count;
 }
 
-static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *items)
+static occ_result rebuild_occluders(occ_scene *scene, occ_team *team, const occ_tree_items *items)
 {
     uint32_t count = scene->occluders.taken, slots = scene->occluders.count;
     occ_result result = occ_array_reserve(&scene->hooks, &scene->occluder_order, count);
     if (result) return result;
     uint32_t *order = scene->occluder_order.data;
     scene->occluder_order.count = list_occluders(scene, order);
-    size_t bytes = occ_octree_room(slots, count, scene->threads);
+    size_t bytes = occ_octree_room(slots, count, team);
     void *room = occ_alloc(&scene->hooks, bytes);
     if (bytes && !room) return OCC_ERROR_OUT_OF_MEMORY;
-    occ_root root = occ_octree_root(items, order, count, scene->threads);
+    occ_root root = occ_octree_root(items, order, count, team);
     result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, slots, &root, order,
-                              count, room, scene->threads);
+                              count, room, team);
     occ_free(&scene->hooks, room, bytes);
     if (!result) {
         uint32_t nodes = scene->occluder_tree.nodes.count;
@@ -212,36 +212,57 @@ static occ_result rebuild_occluders(occ_scene *scene, const occ_tree_items *item
     return result;
 }
 
-static occ_result commit_occluders(occ_scene *scene)
+static occ_result commit_occluders(occ_scene *scene, occ_team *team)
 {
     if (!scene->occluders_reordered && !scene->occluders_moved) return OCC_SUCCESS;
     occ_tree_items items = occ_scene_occluder_items(scene);
     const uint32_t *order = scene->occluder_order.data;
     if (!scene->occluders_reordered) {
         uint32_t count = scene->occluder_order.count;
-        occ_root root = occ_octree_root(&items, order, count, scene->threads);
+        occ_root root = occ_octree_root(&items, order, count, team);
         scene->occluders_reordered = !occ_root_equals(&root, &scene->occluder_tree.root);
     }
     if (scene->occluders_reordered) {
-        occ_result result = rebuild_occluders(scene, &items);
+        occ_result result = rebuild_occluders(scene, team, &items);
         if (result) return result;
     }
-    occ_octree_refit(&scene->occluder_tree, &items, scene->occluder_order.data, scene->threads);
-    refit_reach(scene);
+    occ_octree_refit(&scene->occluder_tree, &items, scene->occluder_order.data, team);
+    refit_reach(scene, team);
     return OCC_SUCCESS;
+}
+
+typedef struct commit_job {
+    occ_scene *scene;
+    occ_result result;
+} commit_job;
+
+static void commit_all(occ_team *team, void *context)
+{
+    commit_job *job = context;
+    occ_scene *scene = job->scene;
+    if (scene->owners_removed) drop_orphans(scene); // before the owners' slots are recycled
+    job->result = commit_objects(scene, team);
+    if (job->result) {
+        occ_fail(&scene->hooks, job->result, "no memory to sort the objects");
+        return;
+    }
+    scene->objects_moved = scene->objects_reordered = false;
+    scene->revision++; // even if the occluders fail: `changed` speaks of this step from here on
+    job->result = commit_occluders(scene, team);
+    if (job->result) {
+        occ_fail(&scene->hooks, job->result, "no memory to sort the occluders");
+        return;
+    }
+    scene->occluders_moved = scene->occluders_reordered = false;
 }
 
 occ_result occ_scene_commit(occ_scene *scene)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     if (occ_scene_is_committed(scene)) return OCC_SUCCESS;
-    if (scene->owners_removed) drop_orphans(scene); // before the owners' slots are recycled
-    occ_result result = commit_objects(scene);
-    if (result) return occ_fail(&scene->hooks, result, "no memory to sort the objects");
-    scene->objects_moved = scene->objects_reordered = false;
-    scene->revision++; // even if the occluders fail: `changed` speaks of this step from here on
-    result = commit_occluders(scene);
-    if (result) return occ_fail(&scene->hooks, result, "no memory to sort the occluders");
-    scene->occluders_moved = scene->occluders_reordered = false;
-    return OCC_SUCCESS;
+    uint32_t rows = scene->boxes.count, slots = scene->occluders.count;
+    uint32_t parts = occ_parts_of(rows > slots ? rows : slots);
+    commit_job job = {scene, OCC_SUCCESS};
+    occ_with_team(scene->threads < parts ? scene->threads : parts, commit_all, &job);
+    return job.result;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "octree.h"
 
-#include "threads.h"
 #include "tree_sort.h"
 
 #include <math.h>
@@ -112,29 +111,29 @@ static void list_sorted(void *context, uint32_t part)
 
 // Sorts the rows, and leaves their entries.
 static void sort_items(const occ_tree_items *items, uint32_t table_count, const occ_root *root,
-                       uint32_t *rows, uint32_t count, occ_tree_entry *entries, uint32_t threads)
+                       uint32_t *rows, uint32_t count, occ_tree_entry *entries, occ_team *team)
 {
     void *spare = entries + count; // first for the keys, then for sorting
-    occ_octree_keys(items, root, table_count, spare, threads);
+    occ_octree_keys(items, root, table_count, spare, team);
     entries_job job = {spare, rows, rows, entries, count, occ_parts_of(count)};
-    occ_do_parts(threads, job.parts, fill_entries, &job);
-    occ_tree_sort(entries, spare, count, threads);
-    occ_do_parts(threads, job.parts, list_sorted, &job);
+    occ_do_parts(team, job.parts, fill_entries, &job);
+    occ_tree_sort(entries, spare, count, team);
+    occ_do_parts(team, job.parts, list_sorted, &job);
 }
 
-size_t occ_octree_room(uint32_t table_count, uint32_t count, uint32_t threads)
+size_t occ_octree_room(uint32_t table_count, uint32_t count, const occ_team *team)
 {
     size_t keys = (size_t)table_count * sizeof(uint64_t);
-    size_t spare = occ_tree_sort_room(count, threads);
+    size_t spare = occ_tree_sort_room(count, team);
     return (size_t)count * sizeof(occ_tree_entry) + (keys > spare ? keys : spare);
 }
 
 occ_result occ_octree_build(occ_hooks *hooks, occ_octree *tree, const occ_tree_items *items,
                             uint32_t table_count, const occ_root *root, uint32_t *rows,
-                            uint32_t count, void *room, uint32_t threads)
+                            uint32_t count, void *room, occ_team *team)
 {
     occ_tree_entry *entries = room;
-    if (count) sort_items(items, table_count, root, rows, count, entries, threads);
+    if (count) sort_items(items, table_count, root, rows, count, entries, team);
     occ_octree built = {.nodes = OCC_ARRAY(occ_node), .root = *root};
     built.leaf_items = tree->leaf_items;
     occ_result result = build_nodes(hooks, &built, entries, count);
@@ -196,12 +195,12 @@ static void bound_part(void *context, uint32_t part)
 }
 
 void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
-                      uint32_t threads)
+                      occ_team *team)
 {
     occ_node *nodes = tree->nodes.data;
     if (!tree->nodes.count) return;
     refit_job job = {tree, items, rows, occ_parts_of(nodes[0].count)};
-    occ_do_parts(threads, job.parts, bound_part, &job);
+    occ_do_parts(team, job.parts, bound_part, &job);
     for (uint32_t i = tree->nodes.count; i-- > 0;) // children lie after their parent
         for (uint32_t c = 0; c < nodes[i].children; c++)
             widen(&nodes[i], nodes[nodes[i].child + c].min, nodes[nodes[i].child + c].max);

@@ -53,18 +53,18 @@ static inline uint32_t occ_node_own(const occ_octree *tree, const occ_node *node
 }
 
 // Bytes of scratch memory that building a tree over `count` of a table's items takes.
-size_t occ_octree_room(uint32_t table_count, uint32_t count, uint32_t threads);
+size_t occ_octree_room(uint32_t table_count, uint32_t count, const occ_team *team);
 
 // Sorts `rows`, which list items of a table of `table_count`, into the tree's order and builds the
 // nodes, all but their bounds. On failure the tree is as it was and `rows` is some permutation of
 // what it was. `room` is aligned for anything.
 occ_result occ_octree_build(occ_hooks *hooks, occ_octree *tree, const occ_tree_items *items,
                             uint32_t table_count, const occ_root *root, uint32_t *rows,
-                            uint32_t count, void *room, uint32_t threads);
+                            uint32_t count, void *room, occ_team *team);
 
 // Recomputes every node's bounds. rows[i] is the item at place i of the order; NULL means i.
 void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
-                      uint32_t threads);
+                      occ_team *team);
 
 void occ_octree_free(occ_hooks *hooks, occ_octree *tree);
 

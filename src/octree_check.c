@@ -115,7 +115,7 @@ static const char *check_ties(const occ_octree *tree, const occ_tree_items *item
 static bool is_root_of(const occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
                        uint32_t count)
 {
-    occ_root root = occ_octree_root(items, rows, count, 1);
+    occ_root root = occ_octree_root(items, rows, count, NULL);
     return occ_root_equals(&root, &tree->root);
 }
 

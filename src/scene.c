@@ -5,7 +5,7 @@
 
 #include "box.h"
 #include "log.h"
-#include "threads.h"
+#include "team.h"
 
 #include <stdatomic.h>
 #include <string.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tree_keys.h"
 
-#include "threads.h"
-
 #include <math.h>
 
 #define ROOT_STEPS 8.0 // the root's origin is a multiple of its size over this
@@ -80,11 +78,11 @@ static occ_root cube_around(const reach *all)
 }
 
 occ_root occ_octree_root(const occ_tree_items *items, const uint32_t *rows, uint32_t count,
-                         uint32_t threads)
+                         occ_team *team)
 {
     if (!count) return (occ_root){{0.0, 0.0, 0.0}, 0.0};
     root_job job = {.items = items, .rows = rows, .count = count, .parts = occ_parts_of(count)};
-    occ_do_parts(threads, job.parts, reach_part, &job);
+    occ_do_parts(team, job.parts, reach_part, &job);
     reach all = job.reaches[0];
     for (uint32_t part = 1; part < job.parts; part++)
         join(&all, &job.reaches[part]);
@@ -126,8 +124,8 @@ static void keys_part(void *context, uint32_t part)
 }
 
 void occ_octree_keys(const occ_tree_items *items, const occ_root *root, uint32_t count,
-                     uint64_t *keys, uint32_t threads)
+                     uint64_t *keys, occ_team *team)
 {
     keys_job job = {items, root, count, occ_parts_of(count), keys};
-    occ_do_parts(threads, job.parts, keys_part, &job);
+    occ_do_parts(team, job.parts, keys_part, &job);
 }

@@ -25,13 +25,13 @@ typedef struct occ_tree_items {
 
 // The root cube of `count` items, listed as rows. Here and below, `rows` NULL means 0, 1, 2, ...
 occ_root occ_octree_root(const occ_tree_items *items, const uint32_t *rows, uint32_t count,
-                         uint32_t threads);
+                         occ_team *team);
 
 // An item's key under a root.
 uint64_t occ_octree_key(const occ_root *root, const float min[3], const float max[3]);
 
 // The keys of items 0 to count - 1.
 void occ_octree_keys(const occ_tree_items *items, const occ_root *root, uint32_t count,
-                     uint64_t *keys, uint32_t threads);
+                     uint64_t *keys, occ_team *team);
 
 #endif

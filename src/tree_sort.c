@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A radix sort from the lowest digit up. Each part of the entries is counted on its own, and knows
-// from the counts of all where its entries go, so the parts move at the same time and the order of
-// equal keys stays.
+// Many entries are first split by the highest bits in which their keys differ, then the buckets are
+// sorted one by one, in a cache's reach, from the lowest digit up. Each part of the entries is
+// counted on its own and knows from the counts of all where its entries go, so the parts move at
+// the same time and the order of equal keys stays.
 #include "tree_sort.h"
-
-#include "threads.h"
 
 #include <string.h>
 
-#define DIGIT_BITS  11u
-#define BUCKETS     (1u << DIGIT_BITS)
-#define FEW_ENTRIES 64u
+#define FEW_ENTRIES  64u    // not worth counting
+#define MANY_ENTRIES 16384u // worth splitting
+#define SPLIT_BITS   11u    // of those that differ, that many split
+#define MOST_BITS    14u    // with those between them that do not differ
+#define MOST_BUCKETS (1u << MOST_BITS)
+#define DIGIT_BITS   11u // at most, in a bucket
+#define DIGITS       (1u << DIGIT_BITS)
 
 // Some bits of a key: two runs of them, so that a stretch that all keys share can be left out.
 typedef struct digit {
@@ -19,11 +22,12 @@ typedef struct digit {
 } digit;
 
 typedef struct sort_job {
-    occ_tree_entry *from, *to;
-    uint32_t (*places)[BUCKETS]; // for each part
+    occ_tree_entry *entries, *spare;
+    uint32_t (*places)[MOST_BUCKETS]; // for each part: where its next entry of a bucket goes
     uint64_t differ[OCC_MOST_PARTS];
     uint32_t count, parts;
-    digit digit;
+    uint32_t shift, buckets; // of the highest bits
+    uint32_t runs;           // of buckets
 } sort_job;
 
 static inline uint32_t digit_of(uint64_t key, digit d)
@@ -31,24 +35,15 @@ static inline uint32_t digit_of(uint64_t key, digit d)
     return (uint32_t)((key >> d.low_shift & d.low_mask) | (key >> d.high_shift & d.high_mask));
 }
 
-// One part to a thread: more would only be more to count.
-static uint32_t parts_of(uint32_t count, uint32_t threads)
+static uint64_t differences(const occ_tree_entry *entries, uint32_t count, uint64_t key)
 {
-    uint32_t parts = occ_parts_of(count);
-    return threads < parts ? threads : parts;
+    uint64_t differ = 0;
+    for (uint32_t i = 0; i < count; i++)
+        differ |= entries[i].key ^ key;
+    return differ;
 }
 
-// --- what the digits are -------------------------------------------------------------------------
-
-static void find_differences(void *context, uint32_t part)
-{
-    sort_job *job = context;
-    uint64_t differ = 0, first = job->from[0].key;
-    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
-    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
-        differ |= job->from[i].key ^ first;
-    job->differ[part] = differ;
-}
+// --- a bucket ------------------------------------------------------------------------------------
 
 static uint32_t lowest_bit(uint64_t bits)
 {
@@ -76,52 +71,21 @@ static digit next_digit(uint64_t *differ, uint32_t width)
     return d;
 }
 
-// --- a pass --------------------------------------------------------------------------------------
-
-static void count_part(void *context, uint32_t part)
+// One stable counting pass.
+static void pass(const occ_tree_entry *from, occ_tree_entry *to, uint32_t count, digit d,
+                 uint32_t digits)
 {
-    const sort_job *job = context;
-    const occ_tree_entry *from = job->from;
-    const digit d = job->digit;
-    uint32_t *count = job->places[part];
-    memset(count, 0, sizeof job->places[part]);
-    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
-    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
-        count[digit_of(from[i].key, d)]++;
-}
-
-static void move_part(void *context, uint32_t part)
-{
-    const sort_job *job = context;
-    const occ_tree_entry *from = job->from;
-    const digit d = job->digit;
-    occ_tree_entry *to = job->to;
-    uint32_t *place = job->places[part];
-    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
-    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
+    uint32_t place[DIGITS], sum = 0;
+    memset(place, 0, digits * sizeof *place);
+    for (uint32_t i = 0; i < count; i++)
+        place[digit_of(from[i].key, d)]++;
+    for (uint32_t b = 0; b < digits; b++) {
+        uint32_t here = place[b];
+        place[b] = sum;
+        sum += here;
+    }
+    for (uint32_t i = 0; i < count; i++)
         to[place[digit_of(from[i].key, d)]++] = from[i];
-}
-
-// Turns the counts into the places where each part's entries of each digit begin.
-static void find_places(const sort_job *job)
-{
-    uint32_t sum = 0;
-    for (uint32_t b = 0; b < BUCKETS; b++)
-        for (uint32_t part = 0; part < job->parts; part++) {
-            uint32_t here = job->places[part][b];
-            job->places[part][b] = sum;
-            sum += here;
-        }
-}
-
-static void pass(sort_job *job, uint32_t threads)
-{
-    occ_do_parts(threads, job->parts, count_part, job);
-    find_places(job);
-    occ_do_parts(threads, job->parts, move_part, job);
-    occ_tree_entry *swap = job->from;
-    job->from = job->to;
-    job->to = swap;
 }
 
 // For few entries the counting passes cost more than they save.
@@ -136,32 +100,127 @@ static void insertion_sort(occ_tree_entry *entries, uint32_t count)
     }
 }
 
-size_t occ_tree_sort_room(uint32_t count, uint32_t threads)
+// Sorts what lies in `from` into `result`, which is either `from` or `to`.
+static void sort_bucket(occ_tree_entry *from, occ_tree_entry *to, occ_tree_entry *result,
+                        uint32_t count)
 {
-    size_t places = (size_t)parts_of(count, threads) * BUCKETS * sizeof(uint32_t);
-    return count <= FEW_ENTRIES ? 0 : (size_t)count * sizeof(occ_tree_entry) + places;
+    uint64_t differ = count > FEW_ENTRIES ? differences(from, count, from[0].key) : 0;
+    uint32_t width = count < 8 * DIGITS ? DIGIT_BITS - 3 : DIGIT_BITS; // counting has a price too
+    while (differ) {
+        digit d = next_digit(&differ, width);
+        pass(from, to, count, d, 1u << width);
+        occ_tree_entry *swap = from;
+        from = to;
+        to = swap;
+    }
+    if (from != result) memcpy(result, from, (size_t)count * sizeof *result);
+    if (count <= FEW_ENTRIES) insertion_sort(result, count);
 }
 
-void occ_tree_sort(occ_tree_entry *entries, void *room, uint32_t count, uint32_t threads)
+// --- many entries --------------------------------------------------------------------------------
+
+// One part to a thread: more would only be more to count.
+static uint32_t parts_of(uint32_t count, const occ_team *team)
 {
-    if (count <= FEW_ENTRIES) {
-        insertion_sort(entries, count);
+    uint32_t parts = occ_parts_of(count);
+    return occ_team_size(team) < parts ? occ_team_size(team) : parts;
+}
+
+static void find_differences(void *context, uint32_t part)
+{
+    sort_job *job = context;
+    uint32_t first = occ_part_first(job->count, job->parts, part);
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    job->differ[part] = differences(job->entries + first, end - first, job->entries[0].key);
+}
+
+static inline uint32_t bucket_of(const sort_job *job, uint64_t key)
+{
+    return (uint32_t)(key >> job->shift) & (job->buckets - 1u);
+}
+
+static void count_part(void *context, uint32_t part)
+{
+    const sort_job *job = context;
+    uint32_t *count = job->places[part];
+    memset(count, 0, job->buckets * sizeof *count);
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
+        count[bucket_of(job, job->entries[i].key)]++;
+}
+
+static void move_part(void *context, uint32_t part)
+{
+    const sort_job job = *(const sort_job *)context;
+    uint32_t *place = job.places[part];
+    uint32_t end = occ_part_first(job.count, job.parts, part + 1);
+    for (uint32_t i = occ_part_first(job.count, job.parts, part); i < end; i++)
+        job.spare[place[bucket_of(&job, job.entries[i].key)]++] = job.entries[i];
+}
+
+// Turns the counts into the places where each part's entries of each bucket begin.
+static void find_places(const sort_job *job)
+{
+    uint32_t sum = 0;
+    for (uint32_t b = 0; b < job->buckets; b++)
+        for (uint32_t part = 0; part < job->parts; part++) {
+            uint32_t here = job->places[part][b];
+            job->places[part][b] = sum;
+            sum += here;
+        }
+}
+
+// Chooses the highest bits in which the keys differ.
+static void choose_buckets(sort_job *job, uint64_t differ)
+{
+    uint32_t top = 0, bits = 0, taken = 0;
+    while (top < 64 && differ >> top)
+        top++;
+    while (bits < top && bits < MOST_BITS && taken < SPLIT_BITS)
+        taken += (uint32_t)(differ >> (top - ++bits)) & 1u;
+    job->shift = top - bits;
+    job->buckets = 1u << bits;
+}
+
+// Sorts the buckets that begin in a run. After the move, the last part's place for a bucket is
+// where the bucket ends.
+static void sort_part(void *context, uint32_t part)
+{
+    const sort_job *job = context;
+    const uint32_t *ends = job->places[job->parts - 1];
+    uint32_t first = occ_part_first(job->count, job->runs, part);
+    uint32_t last = occ_part_first(job->count, job->runs, part + 1);
+    for (uint32_t b = 0, begin = 0; b < job->buckets && begin < last; begin = ends[b++])
+        if (begin >= first && ends[b] > begin) {
+            sort_bucket(job->spare + begin, job->entries + begin, job->entries + begin,
+                        ends[b] - begin);
+        }
+}
+
+size_t occ_tree_sort_room(uint32_t count, const occ_team *team)
+{
+    size_t places = (size_t)parts_of(count, team) * MOST_BUCKETS * sizeof(uint32_t);
+    size_t spare = count <= FEW_ENTRIES ? 0 : (size_t)count * sizeof(occ_tree_entry);
+    return count < MANY_ENTRIES ? spare : spare + places;
+}
+
+void occ_tree_sort(occ_tree_entry *entries, void *room, uint32_t count, occ_team *team)
+{
+    if (count < MANY_ENTRIES) {
+        sort_bucket(entries, room, entries, count);
         return;
     }
-    sort_job job = {.from = entries, .to = room, .count = count};
-    job.parts = parts_of(count, threads);
-    job.places = (void *)(job.to + count);
-    occ_do_parts(threads, job.parts, find_differences, &job);
+    sort_job job = {.entries = entries, .spare = room, .count = count};
+    job.parts = parts_of(count, team);
+    job.places = (void *)(job.spare + count);
+    occ_do_parts(team, job.parts, find_differences, &job);
     uint64_t differ = 0;
     for (uint32_t part = 0; part < job.parts; part++)
         differ |= job.differ[part];
-    uint32_t bits = 0;
-    for (uint64_t left = differ; left; left &= left - 1)
-        bits++;
-    uint32_t digits = (bits + DIGIT_BITS - 1) / DIGIT_BITS;
-    while (differ) {
-        job.digit = next_digit(&differ, (bits + digits - 1) / digits);
-        pass(&job, threads);
-    }
-    if (job.from != entries) memcpy(entries, job.from, (size_t)count * sizeof *entries);
+    choose_buckets(&job, differ);
+    occ_do_parts(team, job.parts, count_part, &job);
+    find_places(&job);
+    occ_do_parts(team, job.parts, move_part, &job);
+    job.runs = team ? occ_parts_of(count) : 1;
+    occ_do_parts(team, job.runs, sort_part, &job);
 }

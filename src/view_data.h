@@ -3,7 +3,7 @@
 #define OCC_VIEW_DATA_H
 
 #include "frame.h"
-#include "threads.h"
+#include "team.h"
 
 struct occ_view {
     occ_hooks hooks;
