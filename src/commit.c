@@ -12,9 +12,14 @@
 // The rows of the objects that are there, in the order of their slots.
 static void list_rows(const occ_scene *scene, uint32_t *rows)
 {
+    const occ_slots *slots = &scene->objects;
+    if (slots->count && slots->taken == slots->count) {
+        memcpy(rows, slots->value, slots->count * sizeof *rows);
+        return;
+    }
     uint32_t count = 0;
-    for (uint32_t s = 0; s < scene->objects.count; s++)
-        if (occ_slots_is_taken(&scene->objects, s)) rows[count++] = scene->objects.value[s];
+    for (uint32_t s = 0; s < slots->count; s++)
+        if (occ_slots_is_taken(slots, s)) rows[count++] = slots->value[s];
 }
 
 // The same in ascending order: NULL if that is all rows there are.
