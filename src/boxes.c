@@ -93,7 +93,10 @@ static void put_part(void *context, uint32_t part)
 void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch,
                       uint32_t scratch_columns, occ_team *team)
 {
-    gather_job job = {boxes, source, scratch, count, occ_parts_of(count), 0, scratch_columns};
+    gather_job job = {.boxes = boxes, .source = source, .count = count};
+    job.scratch = scratch;
+    job.parts = occ_parts_of(count);
+    job.columns = scratch_columns;
     for (; count && job.column < OCC_BOX_COLUMNS; job.column += job.columns) {
         uint32_t left = OCC_BOX_COLUMNS - job.column;
         if (job.columns > left) job.columns = left;

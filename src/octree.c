@@ -115,7 +115,9 @@ static void sort_items(const occ_tree_items *items, uint32_t table_count, const 
 {
     void *spare = entries + count; // first for the keys, then for sorting
     occ_octree_keys(items, root, table_count, spare, team);
-    entries_job job = {spare, rows, rows, entries, count, occ_parts_of(count)};
+    entries_job job = {.keys = spare, .rows = rows, .count = count, .parts = occ_parts_of(count)};
+    job.entries = entries;
+    job.sorted = rows;
     occ_do_parts(team, job.parts, fill_entries, &job);
     occ_tree_sort(entries, spare, count, team);
     occ_do_parts(team, job.parts, list_sorted, &job);

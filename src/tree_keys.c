@@ -126,6 +126,7 @@ static void keys_part(void *context, uint32_t part)
 void occ_octree_keys(const occ_tree_items *items, const occ_root *root, uint32_t count,
                      uint64_t *keys, occ_team *team)
 {
-    keys_job job = {items, root, count, occ_parts_of(count), keys};
+    keys_job job = {.items = items, .root = root, .count = count, .parts = occ_parts_of(count)};
+    job.keys = keys;
     occ_do_parts(team, job.parts, keys_part, &job);
 }

@@ -45,10 +45,11 @@ static uint64_t differences(const occ_tree_entry *entries, uint32_t count, uint6
 
 // --- a bucket ------------------------------------------------------------------------------------
 
+// Of bits that are not all 0.
 static uint32_t lowest_bit(uint64_t bits)
 {
     uint32_t bit = 0;
-    while (!(bits >> bit & 1u))
+    while (bit < 63 && !(bits >> bit & 1u))
         bit++;
     return bit;
 }
@@ -67,7 +68,7 @@ static digit next_digit(uint64_t *differ, uint32_t width)
     uint32_t next = lowest_bit(*differ); // above the low run, and not right above it
     d.high_shift = next - low;
     d.high_mask = (((uint64_t)1 << width) - 1u) & ~d.low_mask;
-    *differ &= ~(d.high_mask << d.high_shift);
+    *differ &= ~((d.high_mask >> low) << next);
     return d;
 }
 
