@@ -2,6 +2,7 @@
 // timeout: 120
 // A commit on any number of threads gives the same trees, orders and boxes, bit for bit: at first,
 // after edits, and after an allocation that failed.
+#include "box.h"
 #include "kit_tree.h"
 #include "support.h"
 
@@ -55,6 +56,7 @@ static void set_up(void)
     kit_random random = {42};
     for (uint32_t i = 0; i < OBJECTS; i++)
         boxes[i] = random_box(&random);
+    boxes[OBJECTS - 1] = kit_cube(1100, -1150, 1200, 1); // the farthest, in the last part
     for (int s = 0; s < SCENES; s++) {
         made[s].objects = calloc(OBJECTS, sizeof(occ_object));
         made[s].occluders = calloc(OCCLUDERS, sizeof(occ_occluder));
@@ -130,6 +132,28 @@ START_TEST(thread_count_does_not_show)
 }
 END_TEST
 
+// The root cube is the least that its rules allow: worked out here from all boxes in one go.
+START_TEST(root_cube_holds_the_middle_of_every_object)
+{
+    ck_assert_int_eq(occ_scene_commit(made[_i].scene), OCC_SUCCESS);
+    const occ_root *root = &made[_i].scene->object_tree.root;
+    double extent = 0.0;
+    for (int j = 0; j < 3; j++) {
+        double low = INFINITY, high = -INFINITY, step = root->size / 8.0;
+        for (uint32_t i = 0; i < OBJECTS; i++) {
+            float min[3], max[3];
+            occ_box_bounds(&boxes[i], min, max);
+            low = fmin(low, 0.5 * ((double)min[j] + (double)max[j]));
+            high = fmax(high, 0.5 * ((double)min[j] + (double)max[j]));
+        }
+        ck_assert(root->origin[j] <= low && low < root->origin[j] + step);
+        ck_assert(high <= root->origin[j] + root->size);
+        extent = fmax(extent, high - low);
+    }
+    ck_assert(root->size / 2.0 <= extent * 8.0 / 7.0 && extent * 8.0 / 7.0 < root->size);
+}
+END_TEST
+
 START_TEST(failed_commit_on_threads_can_be_tried_again)
 {
     ck_assert_int_eq(occ_scene_commit(made[0].scene), OCC_SUCCESS);
@@ -156,6 +180,7 @@ int main(void)
     TCase *threads = tcase_create("threads");
     tcase_add_checked_fixture(threads, set_up, tear_down);
     tcase_add_test(threads, thread_count_does_not_show);
+    tcase_add_loop_test(threads, root_cube_holds_the_middle_of_every_object, 0, SCENES);
     tcase_add_test(threads, failed_commit_on_threads_can_be_tried_again);
     suite_add_tcase(suite, threads);
     return test_run_suite(suite);
