@@ -98,7 +98,7 @@ static occ_result rebuild_objects(occ_scene *scene, occ_team *team)
         reorder_tables(scene, team, rows, count, room,
                        columns < OCC_BOX_COLUMNS ? (uint32_t)columns : OCC_BOX_COLUMNS);
         occ_tree_items items = occ_scene_object_items(scene);
-        occ_octree_refit(&scene->object_tree, &items, NULL, team);
+        occ_octree_refit(&scene->object_tree, &items, NULL, NULL, team);
         scene->changed.count = (uint32_t)words;
         scene->all_changed = true;
         occ_slots_recycle(&scene->objects);
@@ -114,7 +114,7 @@ static bool refit_objects(occ_scene *scene, occ_team *team)
     occ_tree_items items = occ_scene_object_items(scene);
     occ_root root = occ_octree_root(&items, NULL, scene->boxes.count, team);
     if (!occ_root_equals(&root, &scene->object_tree.root)) return false;
-    occ_octree_refit(&scene->object_tree, &items, NULL, team);
+    occ_octree_refit(&scene->object_tree, &items, NULL, scene->changed.data, team);
     return true;
 }
 
@@ -231,7 +231,7 @@ static occ_result commit_occluders(occ_scene *scene, occ_team *team)
         occ_result result = rebuild_occluders(scene, team, &items);
         if (result) return result;
     }
-    occ_octree_refit(&scene->occluder_tree, &items, scene->occluder_order.data, team);
+    occ_octree_refit(&scene->occluder_tree, &items, scene->occluder_order.data, NULL, team);
     refit_reach(scene, team);
     return OCC_SUCCESS;
 }

@@ -162,9 +162,17 @@ static void widen(occ_node *node, const float low[3], const float high[3])
 typedef struct refit_job {
     const occ_octree *tree;
     const occ_tree_items *items;
-    const uint32_t *rows;
+    const uint32_t *rows, *changed;
     uint32_t parts;
 } refit_job;
+
+static bool has_changed(const uint32_t *changed, const occ_node *node)
+{
+    uint32_t last = (node->first + node->count - 1) / OCC_CHANGE_ROWS;
+    for (uint32_t bit = node->first / OCC_CHANGE_ROWS; bit <= last; bit++)
+        if (changed[bit / 32] >> bit % 32 & 1u) return true;
+    return false;
+}
 
 // The bounds of a node's own items.
 static void bound_own(const refit_job *job, occ_node *node)
@@ -193,15 +201,15 @@ static void bound_part(void *context, uint32_t part)
     occ_node *nodes = job->tree->nodes.data;
     uint32_t count = job->tree->nodes.count, end = occ_part_first(count, job->parts, part + 1);
     for (uint32_t i = occ_part_first(count, job->parts, part); i < end; i++)
-        bound_own(job, &nodes[i]);
+        if (!job->changed || has_changed(job->changed, &nodes[i])) bound_own(job, &nodes[i]);
 }
 
 void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
-                      occ_team *team)
+                      const uint32_t *changed, occ_team *team)
 {
     occ_node *nodes = tree->nodes.data;
     if (!tree->nodes.count) return;
-    refit_job job = {tree, items, rows, occ_parts_of(nodes[0].count)};
+    refit_job job = {tree, items, rows, changed, occ_parts_of(nodes[0].count)};
     occ_do_parts(team, job.parts, bound_part, &job);
     for (uint32_t i = tree->nodes.count; i-- > 0;) // children lie after their parent
         for (uint32_t c = 0; c < nodes[i].children; c++)

@@ -62,9 +62,12 @@ occ_result occ_octree_build(occ_hooks *hooks, occ_octree *tree, const occ_tree_i
                             uint32_t table_count, const occ_root *root, uint32_t *rows,
                             uint32_t count, void *room, occ_team *team);
 
-// Recomputes every node's bounds. rows[i] is the item at place i of the order; NULL means i.
+#define OCC_CHANGE_ROWS 256u // places in the order to a bit of `changed`
+
+// Recomputes the bounds of all nodes, or of those that hold an item at a place of which `changed`
+// has the bit. rows[i] is the item at place i of the order; NULL means i.
 void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
-                      occ_team *team);
+                      const uint32_t *changed, occ_team *team);
 
 void occ_octree_free(occ_hooks *hooks, occ_octree *tree);
 

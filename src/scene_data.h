@@ -14,8 +14,6 @@
 #include "octree.h"
 #include "slots.h"
 
-#define OCC_CHANGE_ROWS 256u // rows per bit of `changed`
-
 struct occ_scene {
     occ_hooks hooks;
     uint64_t id;       // no other scene of this process has it
@@ -33,7 +31,8 @@ struct occ_scene {
     occ_octree occluder_tree;
     occ_array reach; // float per node of the tree: the largest occ_occluder_reach() below it
 
-    occ_array changed;      // uint32_t words: which rows the latest commit changed
+    occ_array
+        changed; // uint32_t words: which rows (OCC_CHANGE_ROWS to a bit) the latest commit changed
     bool all_changed;       // or all of them
     bool objects_moved;     // bounds are out of date
     bool objects_reordered; // rows are out of date too
