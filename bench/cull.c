@@ -13,7 +13,8 @@
 typedef struct cull_arguments {
     measure_settings settings;
     const char *scene, *out, *csv, *rays;
-    double min_area;
+    const char *preset;
+    double min_area, tolerance;
     bool force;
 } cull_arguments;
 
@@ -40,9 +41,13 @@ static const char cull_usage[] =
     "  --builds N         build the scene N times and print the median (default 1)\n"
     "  --out R.vis        write the verdicts of every frame\n"
     "  --csv F.csv        write a row for each frame\n"
-    "  --min-area A       smallest solid angle at which an occluder is used (default 2e-4)\n"
-    "  --grain N          most objects in a node that is tested as it is (default 32)\n"
-    "  --max-occluders N  most occluders used in a frame (default 1024)\n"
+    "  --preset P         fast, balanced (default) or thorough: what stands for knobs not given\n"
+    "  --min-area A       smallest solid angle at which an occluder is used (balanced: 2e-4)\n"
+    "  --grain N          most objects in a node that is tested as it is (balanced: 64)\n"
+    "  --max-occluders N  most occluders used in a frame (balanced: 1024)\n"
+    "  --max-splits N     most subtractions for an object in fused (balanced: 48)\n"
+    "  --tolerance T      radians, 0.1 at most: gaps between occluders that look narrower are\n"
+    "                     closed, and visible objects may be hidden (default 0)\n"
     "  --rays WxH         size of embree-depth's buffer (default 85x48)\n"
     "  --force            run a quadratic method on a large scene too\n"
     "\n"
@@ -84,6 +89,9 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
         {"--builds", OPTIONS_COUNT, &settings->builds},
         {"--out", OPTIONS_TEXT, &arguments->out},
         {"--csv", OPTIONS_TEXT, &arguments->csv},
+        {"--preset", OPTIONS_TEXT, &arguments->preset},
+        {"--tolerance", OPTIONS_REAL, &arguments->tolerance},
+        {"--max-splits", OPTIONS_COUNT, &settings->knobs.max_splits},
         {"--min-area", OPTIONS_REAL, &arguments->min_area},
         {"--grain", OPTIONS_COUNT, &settings->knobs.grain},
         {"--max-occluders", OPTIONS_COUNT, &settings->knobs.max_occluders},
@@ -97,6 +105,11 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
     if (count != 1) return options_complain(argv[0], "expected a scene file");
     arguments->scene = words[0];
     settings->knobs.min_area = (float)arguments->min_area;
+    settings->knobs.tolerance = (float)arguments->tolerance;
+    if (settings->knobs.tolerance > OCC_MAX_TOLERANCE)
+        return options_complain(argv[0], "--tolerance is 0.1 at most");
+    if (arguments->preset && !measure_preset(arguments->preset, &settings->knobs.preset))
+        return options_complain(argv[0], "expected fast, balanced or thorough after --preset");
     if (arguments->rays && !parse_rays(arguments->rays, settings))
         return options_complain(argv[0], "expected --rays as 85x48, 4096x4096 at most");
     const char *complaint = measure_complete(settings);

@@ -58,6 +58,18 @@ bool measure_method(const char *name, occ_method *method)
     return find_method(name, method);
 }
 
+bool measure_preset(const char *name, occ_preset *preset)
+{
+    static const char *const names[] = {"balanced", "fast", "thorough"};
+    static const occ_preset presets[] = {OCC_PRESET_BALANCED, OCC_PRESET_FAST, OCC_PRESET_THOROUGH};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0) {
+            *preset = presets[i];
+            return true;
+        }
+    return false;
+}
+
 static bool find_backend(const char *name, occ_backend *backend)
 {
     static const char *const names[] = {"openmp", "plain", "opencl"};

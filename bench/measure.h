@@ -60,6 +60,9 @@ const char *measure_warning(const measure_settings *settings, const obs_scene *s
 /// The library's method of that name. False if it is not one of the library's.
 bool measure_method(const char *name, occ_method *method);
 
+/// The preset of that name: fast, balanced or thorough. False if there is none.
+bool measure_preset(const char *name, occ_preset *preset);
+
 /// Runs. On failure says why on standard error, zeroes `result` and returns false.
 bool measure_run(const measure_settings *settings, const obs_scene *scene, measure_result *result);
 

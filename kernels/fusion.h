@@ -11,16 +11,17 @@
 
 #define OCC_SIDE_PLANES       4u // left, right, bottom, top; near and far follow
 #define OCC_FUSION_STACK      16u
-#define OCC_FUSION_SPLITS     48u
 #define OCC_FUSION_CANDIDATES 64u
 
-// The pieces in hand, and the shadows that the object touches.
+// The shadows that the object touches, and the pieces in hand.
 typedef struct occ_fusion {
     occ_piece stack[OCC_FUSION_STACK];
     occ_u32 depth;
     occ_u32 candidate[OCC_FUSION_CANDIDATES];
     occ_u32 planes[OCC_FUSION_CANDIDATES]; // bit p: plane p of the shadow cuts the object
     occ_u32 candidates;
+    occ_u32 faces; // whether a face is among those planes
+    int held;      // whether a shadow holds the object's center
 } occ_fusion;
 
 // How many planes of a shadow are silhouettes; those of faces come after them.
@@ -38,12 +39,13 @@ OCC_FN void occ_cutter_set(occ_cutter *n, OCC_PLANES_OF plane, float turn)
     n->d = turn * plane[3];
 }
 
-// Lists a shadow that the object touches, with the planes that cut the object. Returns those of
-// them that are faces.
-OCC_FN occ_u32 occ_fusion_consider(occ_fusion *fusion, const occ_relative_box *box,
-                                   OCC_GLOBAL const occ_shadow *shadow, occ_u32 index)
+// Lists a shadow that the object touches, with the planes that cut the object. Returns whether it
+// holds all of the object.
+OCC_FN int occ_fusion_consider(occ_fusion *fusion, const occ_relative_box *box,
+                               OCC_GLOBAL const occ_shadow *shadow, occ_u32 index)
 {
     occ_u32 cutting = 0;
+    int held = 1;
     for (occ_u32 p = 0; p < shadow->planes; p++) {
         OCC_PLANES_OF plane = shadow->plane[p];
         float s =
@@ -51,36 +53,41 @@ OCC_FN occ_u32 occ_fusion_consider(occ_fusion *fusion, const occ_relative_box *b
         float r = occ_box_reach(box, plane[0], plane[1], plane[2]);
         if (OCC_IS_OUTSIDE(s, r, box->e)) return 0;
         if (!OCC_IS_INSIDE(s, r, box->e)) cutting |= 1u << p;
+        held = held && s > box->e;
     }
+    if (!cutting) return 1;
+    fusion->held = fusion->held || held;
+    if (fusion->candidates == OCC_FUSION_CANDIDATES) return 0;
+    fusion->faces |= cutting >> occ_shadow_silhouettes(shadow);
     fusion->candidate[fusion->candidates] = index;
     fusion->planes[fusion->candidates++] = cutting;
-    return cutting >> occ_shadow_silhouettes(shadow);
+    return 0;
 }
 
-// The sum of a piece's vertices, which is its middle times their number.
+// The sum of three corners of a piece: three times a point inside.
+#define OCC_MIDDLE_CORNERS 3u
+
 OCC_FN void occ_piece_middle(const occ_piece *piece, occ_vertex *middle)
 {
-    *middle = piece->v[0];
-    for (occ_u32 i = 1; i < piece->count; i++) {
-        middle->x += piece->v[i].x;
-        middle->y += piece->v[i].y;
-        middle->z += piece->v[i].z;
-        middle->w += piece->v[i].w;
-        middle->e += piece->v[i].e;
-    }
+    const occ_vertex *a = &piece->v[0], *b = &piece->v[piece->count / OCC_MIDDLE_CORNERS];
+    const occ_vertex *c = &piece->v[2 * piece->count / OCC_MIDDLE_CORNERS];
+    middle->x = (a->x + b->x) + c->x;
+    middle->y = (a->y + b->y) + c->y;
+    middle->z = (a->z + b->z) + c->z;
+    middle->w = (a->w + b->w) + c->w;
+    middle->e = (a->e + b->e) + c->e;
 }
 
 // Whether a shadow's planes hold the middle with room to spare, so that cutting gets somewhere.
 OCC_FN int occ_shadow_holds(OCC_GLOBAL const occ_shadow *shadow, occ_u32 planes,
-                            const occ_vertex *middle, float count)
+                            const occ_vertex *middle)
 {
     for (occ_u32 p = 0; p < shadow->planes; p++) {
         if (!(planes >> p & 1u)) continue;
         occ_cutter n;
         occ_cutter_set(&n, shadow->plane[p], 1.0f);
-        float least =
-            middle->e + count * OCC_VERTEX_SLACK + OCC_FABS(n.d * middle->w) * OCC_OFFSET_SLACK;
-        if (!(occ_vertex_at(middle, &n) > 2.0f * least)) return 0;
+        float least = OCC_MIDDLE_LEAST(middle->e, n.d * middle->w);
+        if (!(occ_vertex_at(middle, &n) > least)) return 0;
     }
     return 1;
 }
@@ -96,9 +103,54 @@ OCC_FN occ_u32 occ_fusion_find(const occ_fusion *fusion, OCC_GLOBAL const occ_sh
     for (; i < fusion->candidates; i++) {
         OCC_GLOBAL const occ_shadow *shadow = &shadows[fusion->candidate[i]];
         if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;
-        if (occ_shadow_holds(shadow, fusion->planes[i], &middle, (float)top->count)) break;
+        if (occ_shadow_holds(shadow, fusion->planes[i], &middle)) break;
     }
     return i;
+}
+
+// Whether a candidate holds a vertex.
+OCC_FN int occ_fusion_holds(const occ_fusion *fusion, const occ_vertex *v,
+                            OCC_GLOBAL const occ_shadow *shadows)
+{
+    for (occ_u32 i = 0; i < fusion->candidates; i++) {
+        OCC_GLOBAL const occ_shadow *shadow = &shadows[fusion->candidate[i]];
+        int held = 1;
+        for (occ_u32 p = 0; p < shadow->planes && held; p++) {
+            if (!(fusion->planes[i] >> p & 1u)) continue;
+            occ_cutter n;
+            occ_cutter_set(&n, shadow->plane[p], 1.0f);
+            held = occ_vertex_at(v, &n) > occ_vertex_least(v, &n);
+        }
+        if (held) return 1;
+    }
+    return 0;
+}
+
+// Whether a vertex is on the inner side of those side planes that `mask` names.
+OCC_FN int occ_vertex_in_frustum(const occ_vertex *v, OCC_GLOBAL const occ_eye *eye, occ_u32 mask)
+{
+    for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
+        if (!(mask >> p & 1u)) continue;
+        occ_cutter n;
+        occ_cutter_set(&n, eye->plane[p], 1.0f);
+        if (!(occ_vertex_at(v, &n) > 0.0f)) return 0;
+    }
+    return 1;
+}
+
+// Whether a corner of the outline is in the picture and in no shadow.
+OCC_FN int occ_fusion_corner_shows(const occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye,
+                                   occ_u32 mask, OCC_GLOBAL const occ_shadow *shadows)
+{
+    for (occ_u32 i = 0; i < fusion->depth; i++) {
+        for (occ_u32 k = 0; k < fusion->stack[i].count; k++) {
+            const occ_vertex *v = &fusion->stack[i].v[k];
+            if (!occ_fusion_holds(fusion, v, shadows) && occ_vertex_in_frustum(v, eye, mask)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
 }
 
 // Takes a shadow from the piece on top of the stack, which it replaces by what is left. 0 if that
@@ -138,18 +190,15 @@ OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, o
     }
 }
 
-// Whether the candidates hide the outline, or the faces, of the object. An outline is no part of
-// the object's surface: only candidates that are wholly in front may be taken from it.
-OCC_FN int occ_fusion_covers(occ_fusion *fusion, const occ_relative_box *box,
-                             OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
+// Whether the candidates hide the pieces on the stack. An outline is no part of the object's
+// surface: unless it is of faces, only candidates that are wholly in front may be taken from it.
+OCC_FN int occ_fusion_covers(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
                              OCC_GLOBAL const occ_shadow *shadows, int by_faces)
 {
-    fusion->depth = occ_outline(fusion->stack, box, eye, by_faces);
-    if (!fusion->depth) return 0;
     occ_fusion_clip(fusion, eye, mask);
     for (occ_u32 split = 0; fusion->depth; split++) {
         occ_u32 i = occ_fusion_find(fusion, shadows, by_faces);
-        if (i == fusion->candidates || split == OCC_FUSION_SPLITS ||
+        if (i == fusion->candidates || split == eye->splits ||
             !occ_fusion_subtract(fusion, &shadows[fusion->candidate[i]], fusion->planes[i])) {
             return 0;
         }
@@ -157,21 +206,43 @@ OCC_FN int occ_fusion_covers(occ_fusion *fusion, const occ_relative_box *box,
     return 1;
 }
 
-// The object is hidden by the candidates together.
+// The object's center is in the picture. (What lies around it as well; so it is a witness, if no
+// shadow holds it: moving towards the eye leads out of shadows, never into one.)
+OCC_FN int occ_center_in_frustum(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye,
+                                 occ_u32 mask)
+{
+    for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
+        OCC_PLANES_OF n = eye->plane[p];
+        float s = OCC_PLANE_AT(n[0], n[1], n[2], n[3], box->t[0], box->t[1], box->t[2]);
+        if ((mask >> p & 1u) && !(s > 0.0f)) return 0;
+    }
+    return 1;
+}
+
+// The object is hidden by a candidate, or by several together. Cheap answers come first: the center
+// and the corners of what is visible mostly show.
 OCC_FN int occ_box_fused(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
                          OCC_GLOBAL const occ_shadow *shadows, OCC_GLOBAL const occ_u32 *list,
                          occ_u32 count, occ_u32 row)
 {
     occ_fusion fusion;
-    occ_u32 faces = 0;
-    fusion.candidates = 0;
-    for (occ_u32 i = 0; i < count && fusion.candidates < OCC_FUSION_CANDIDATES; i++) {
+    fusion.candidates = fusion.faces = 0;
+    fusion.held = 0;
+    for (occ_u32 i = 0; i < count; i++) {
         OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
-        if (shadow->owner != row) faces |= occ_fusion_consider(&fusion, box, shadow, list[i]);
+        if (shadow->owner != row && occ_fusion_consider(&fusion, box, shadow, list[i])) return 1;
     }
     if (fusion.candidates == 0) return 0;
-    if (occ_fusion_covers(&fusion, box, eye, mask, shadows, 0)) return 1;
-    return faces && occ_fusion_covers(&fusion, box, eye, mask, shadows, 1);
+    if (!fusion.held && occ_center_in_frustum(box, eye, mask)) return 0;
+    occ_outline outline;
+    if (!occ_outline_set(&outline, box, eye, 0)) return 0;
+    fusion.depth = occ_outline_pieces(&outline, box, fusion.stack);
+    if (!fusion.depth || occ_fusion_corner_shows(&fusion, eye, mask, shadows)) return 0;
+    if (occ_fusion_covers(&fusion, eye, mask, shadows, 0)) return 1;
+    if (!fusion.faces) return 0;
+    if (!occ_outline_set(&outline, box, eye, 1)) return 0;
+    fusion.depth = occ_outline_pieces(&outline, box, fusion.stack);
+    return fusion.depth && occ_fusion_covers(&fusion, eye, mask, shadows, 1);
 }
 
 #endif

@@ -11,6 +11,9 @@
 #define OCC_SIDE_PLUS  2
 #define OCC_SIDE_DOUBT 3
 
+// A corner's coordinate: the center's, and those of three axes with their signs.
+#define OCC_CORNER(t, a, b, c) ((((t) + (a)) + (b)) + (c))
+
 // Which face of pair k the eye sees. With the eye at 0, n = a x b and the box from n.t - |n.c| to
 // n.t + |n.c| along n, it is in front of the nearer face if |n.t| > |n.c|.
 OCC_FN int occ_side_seen(const occ_relative_box *box, occ_u32 k, OCC_GLOBAL const occ_eye *eye)
@@ -39,47 +42,44 @@ OCC_FN int occ_side_seen(const occ_relative_box *box, occ_u32 k, OCC_GLOBAL cons
     return extent - OCC_FABS(at) > error ? OCC_SIDE_NONE : OCC_SIDE_DOUBT;
 }
 
-// The corner that is on side s[k] of axis k, except for those axes that `flip` names. 0 if floats
-// cannot say where it is.
-OCC_FN int occ_outline_add(occ_piece *piece, const occ_relative_box *box, const float *s,
-                           occ_u32 flip)
-{
-    float s0 = flip & 1u ? -s[0] : s[0], s1 = flip & 2u ? -s[1] : s[1];
-    float s2 = flip & 4u ? -s[2] : s[2];
-    occ_vertex *v = &piece->v[piece->count++];
-    v->x = ((box->t[0] + s0 * box->a[0]) + s1 * box->a[3]) + s2 * box->a[6];
-    v->y = ((box->t[1] + s0 * box->a[1]) + s1 * box->a[4]) + s2 * box->a[7];
-    v->z = ((box->t[2] + s0 * box->a[2]) + s1 * box->a[5]) + s2 * box->a[8];
-    v->w = 1.0f;
-    v->e = box->e;
-    return occ_vertex_scale(v);
-}
+// Polygons whose corners are corners of the box. Bit k of a corner: it is at -axis[k] rather than
+// at +axis[k].
+typedef struct occ_outline {
+    occ_u32 polygons;
+    occ_u32 corners; // of each
+    occ_u32 corner[6][6];
+} occ_outline;
 
-// Face `side` of pair k.
-OCC_FN int occ_outline_face(occ_piece *piece, const occ_relative_box *box, occ_u32 k, float side)
+// Face `minus` (0 or 1) of pair k.
+OCC_FN void occ_outline_add_face(occ_outline *outline, occ_u32 k, occ_u32 minus)
 {
-    float s[3] = {1.0f, 1.0f, 1.0f};
-    occ_u32 a = 1u << (k + 1) % 3, b = 1u << (k + 2) % 3;
-    s[k] = side;
-    piece->count = piece->cuts = 0;
-    return occ_outline_add(piece, box, s, 0) && occ_outline_add(piece, box, s, a) &&
-           occ_outline_add(piece, box, s, a | b) && occ_outline_add(piece, box, s, b);
+    occ_u32 a = 1u << (k + 1) % 3, b = 1u << (k + 2) % 3, at = minus << k;
+    occ_u32 *corner = outline->corner[outline->polygons++];
+    corner[0] = at;
+    corner[1] = at | a;
+    corner[2] = at | a | b;
+    corner[3] = at | b;
 }
 
 // Where two or three faces are seen, their outline has six corners: with three, all but the nearest
 // and the farthest; with two, all of both, and the third axis runs along the edge between them.
-OCC_FN int occ_outline_hexagon(occ_piece *piece, const occ_relative_box *box, const int *side)
+OCC_FN void occ_outline_set_hexagon(occ_outline *outline, const int *side)
 {
-    float s[3];
+    occ_u32 at = 0;
     for (occ_u32 k = 0; k < 3; k++)
-        s[k] = side[k] == OCC_SIDE_MINUS ? -1.0f : 1.0f;
+        at |= (occ_u32)(side[k] == OCC_SIDE_MINUS) << k;
     int two = side[0] == OCC_SIDE_NONE || side[1] == OCC_SIDE_NONE || side[2] == OCC_SIDE_NONE;
     occ_u32 k = side[0] == OCC_SIDE_NONE ? 0u : side[1] == OCC_SIDE_NONE ? 1u : 2u;
     occ_u32 a = 1u << (k + 1) % 3, b = 1u << (k + 2) % 3, c = 1u << k;
-    piece->count = piece->cuts = 0;
-    return occ_outline_add(piece, box, s, a) && occ_outline_add(piece, box, s, two ? 0u : a | b) &&
-           occ_outline_add(piece, box, s, b) && occ_outline_add(piece, box, s, b | c) &&
-           occ_outline_add(piece, box, s, c) && occ_outline_add(piece, box, s, a | c);
+    occ_u32 *corner = outline->corner[0];
+    corner[0] = at ^ a;
+    corner[1] = two ? at : at ^ (a | b);
+    corner[2] = at ^ b;
+    corner[3] = at ^ (b | c);
+    corner[4] = at ^ c;
+    corner[5] = at ^ (a | c);
+    outline->polygons = 1;
+    outline->corners = 6;
 }
 
 // Whether the eye is outside of the box for certain, by the box's axis-aligned bounds alone.
@@ -92,28 +92,57 @@ OCC_FN int occ_outline_is_apart(const occ_relative_box *box, OCC_GLOBAL const oc
            OCC_FABS(t[2]) - OCC_NORM1(a[2], a[5], a[8]) > least;
 }
 
-// How many pieces the outline has, or the faces: every face that may be seen, where it is in doubt
-// which are. 0: it cannot be told, for the eye may be inside.
-OCC_FN occ_u32 occ_outline(occ_piece *pieces, const occ_relative_box *box,
+// The outline, or the faces: every face that may be seen, where it is in doubt which are. 0: it
+// cannot be told, for the eye may be inside.
+OCC_FN int occ_outline_set(occ_outline *outline, const occ_relative_box *box,
                            OCC_GLOBAL const occ_eye *eye, int by_faces)
 {
     int side[3];
-    occ_u32 seen = 0, doubts = 0, count = 0;
+    occ_u32 seen = 0, doubts = 0;
     for (occ_u32 k = 0; k < 3; k++) {
         side[k] = occ_side_seen(box, k, eye);
         seen += side[k] == OCC_SIDE_PLUS || side[k] == OCC_SIDE_MINUS;
         doubts += side[k] == OCC_SIDE_DOUBT;
     }
     if (!seen && !occ_outline_is_apart(box, eye)) return 0;
-    if (!doubts && seen > 1 && !by_faces) return (occ_u32)occ_outline_hexagon(pieces, box, side);
+    if (!doubts && seen > 1 && !by_faces) {
+        occ_outline_set_hexagon(outline, side);
+        return 1;
+    }
+    outline->polygons = 0;
+    outline->corners = 4;
     for (occ_u32 k = 0; k < 3; k++) {
         if (side[k] == OCC_SIDE_NONE) continue;
-        if (side[k] != OCC_SIDE_MINUS && !occ_outline_face(&pieces[count++], box, k, 1.0f))
-            return 0;
-        if (side[k] != OCC_SIDE_PLUS && !occ_outline_face(&pieces[count++], box, k, -1.0f))
-            return 0;
+        if (side[k] != OCC_SIDE_MINUS) occ_outline_add_face(outline, k, 0);
+        if (side[k] != OCC_SIDE_PLUS) occ_outline_add_face(outline, k, 1);
     }
-    return count;
+    return outline->polygons > 0;
+}
+
+// The corner that has the signs `corner`. 0 if floats cannot say where it is.
+OCC_FN int occ_outline_corner(const occ_relative_box *box, occ_u32 corner, occ_vertex *v)
+{
+    float s0 = corner & 1u ? -1.0f : 1.0f, s1 = corner & 2u ? -1.0f : 1.0f;
+    float s2 = corner & 4u ? -1.0f : 1.0f;
+    v->x = OCC_CORNER(box->t[0], s0 * box->a[0], s1 * box->a[3], s2 * box->a[6]);
+    v->y = OCC_CORNER(box->t[1], s0 * box->a[1], s1 * box->a[4], s2 * box->a[7]);
+    v->z = OCC_CORNER(box->t[2], s0 * box->a[2], s1 * box->a[5], s2 * box->a[8]);
+    v->w = 1.0f;
+    v->e = box->e;
+    return occ_vertex_scale(v);
+}
+
+// The polygons as pieces. Their number, or 0 if that cannot be.
+OCC_FN occ_u32 occ_outline_pieces(const occ_outline *outline, const occ_relative_box *box,
+                                  occ_piece *pieces)
+{
+    for (occ_u32 i = 0; i < outline->polygons; i++) {
+        pieces[i].count = outline->corners;
+        pieces[i].cuts = 0;
+        for (occ_u32 k = 0; k < outline->corners; k++)
+            if (!occ_outline_corner(box, outline->corner[i][k], &pieces[i].v[k])) return 0;
+    }
+    return outline->polygons;
 }
 
 #endif

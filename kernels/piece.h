@@ -90,10 +90,14 @@ typedef struct occ_cutter {
     float x, y, z, d;
 } occ_cutter;
 
-// The least n.v + d w for a vertex that is inside.
+// The least n.v + d w for a vertex that is inside, given e and d w; and for the sum of three.
+#define OCC_VERTEX_LEAST(e, dw) ((e) + OCC_VERTEX_SLACK + OCC_FABS(dw) * OCC_OFFSET_SLACK)
+#define OCC_MIDDLE_LEAST(e, dw)                                                                    \
+    (2.0f * ((e) + 3.0f * OCC_VERTEX_SLACK + OCC_FABS(dw) * OCC_OFFSET_SLACK))
+
 OCC_FN float occ_vertex_least(const occ_vertex *v, const occ_cutter *n)
 {
-    return v->e + OCC_VERTEX_SLACK + OCC_FABS(n->d * v->w) * OCC_OFFSET_SLACK;
+    return OCC_VERTEX_LEAST(v->e, n->d * v->w);
 }
 
 OCC_FN float occ_vertex_at(const occ_vertex *v, const occ_cutter *n)

@@ -25,16 +25,16 @@ inline uint verdict_of(__global const float *boxes, uint stride, __global const 
 {
     occ_relative_box box = relative_row(boxes, stride, row, eye);
     if (occ_box_outside(&box, eye->plane[0], range->frustum)) return OCC_OUTSIDE;
-    uint end = range->candidates + range->candidate_count;
-    for (uint c = range->candidates; c < end; c++) {
-        __global const occ_shadow *shadow = &shadows[candidates[c]];
+    __global const uint *list = candidates + range->candidates;
+    if (range->fused) {
+        return occ_box_fused(&box, eye, range->frustum, shadows, list, range->candidate_count, row)
+                   ? OCC_HIDDEN
+                   : OCC_VISIBLE;
+    }
+    for (uint c = 0; c < range->candidate_count; c++) {
+        __global const occ_shadow *shadow = &shadows[list[c]];
         if (shadow->owner == row) continue;
         if (occ_box_in_shadow(&box, shadow->plane[0], shadow->planes)) return OCC_HIDDEN;
-    }
-    if (range->fused &&
-        occ_box_fused(&box, eye, range->frustum, shadows, candidates + range->candidates,
-                      range->candidate_count, row)) {
-        return OCC_HIDDEN;
     }
     return OCC_VISIBLE;
 }

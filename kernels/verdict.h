@@ -25,8 +25,9 @@ typedef struct occ_eye {
     float plane[OCC_FRUSTUM_PLANES][4]; // the frustum's, relative to the eye
     float toward[4];                    // orthographic: a direction to the viewer, and 1; else 0
     float slack_floor;
-    float doubt; // four times what the eye may be off by
-    occ_u32 pad[2];
+    float doubt;    // four times what the eye may be off by
+    occ_u32 splits; // how many subtractions fusion may spend on an object
+    occ_u32 pad;
 } occ_eye;
 
 // A run of at most 64 objects that the walk left open.

@@ -14,6 +14,7 @@ typedef struct occ_test_job {
     const occ_scene *scene;
     const occ_eye *eye;
     const occ_shadow *shadows;
+    const occ_wide_shadow *wide; // the same
     uint32_t shadow_count;
     const occ_range *ranges;
     uint32_t range_count;

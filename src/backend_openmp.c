@@ -23,7 +23,7 @@ static occ_result upload(occ_tester *backend, const occ_scene *scene)
 static void test_range(const openmp_backend *backend, const occ_test_job *job, uint32_t r)
 {
     const occ_range *range = &job->ranges[r];
-    occ_candidates candidates = {job->shadows, job->candidates + range->candidates,
+    occ_candidates candidates = {job->shadows, job->wide, job->candidates + range->candidates,
                                  range->candidate_count};
     job->verdicts[r] = backend->lanes->test(&job->scene->boxes, range, job->eye, &candidates);
 }

@@ -11,15 +11,17 @@ static uint32_t verdict_of(const occ_test_job *job, const occ_range *range, uint
     const occ_eye *eye = job->eye;
     occ_relative_box relative = occ_box_relative(&box, eye);
     if (occ_box_outside(&relative, eye->plane[0], range->frustum)) return OCC_OUTSIDE;
+    const uint32_t *list = job->candidates + range->candidates;
+    if (range->fused) {
+        return occ_box_fused(&relative, eye, range->frustum, job->shadows, list,
+                             range->candidate_count, row)
+                   ? OCC_HIDDEN
+                   : OCC_VISIBLE;
+    }
     for (uint32_t c = 0; c < range->candidate_count; c++) {
-        const occ_shadow *shadow = &job->shadows[job->candidates[range->candidates + c]];
+        const occ_shadow *shadow = &job->shadows[list[c]];
         if (shadow->owner == row) continue;
         if (occ_box_in_shadow(&relative, shadow->plane[0], shadow->planes)) return OCC_HIDDEN;
-    }
-    if (range->fused &&
-        occ_box_fused(&relative, eye, range->frustum, job->shadows,
-                      job->candidates + range->candidates, range->candidate_count, row)) {
-        return OCC_HIDDEN;
     }
     return OCC_VISIBLE;
 }

@@ -26,6 +26,7 @@ typedef struct occ_camera {
     bool has_corners;         // whether all rays of the frustum meet the cutter:
     double near_corner[4][3]; // the part of them in front of it is the hull of these and the eye
     double view_area;         // orthographic: of the view rectangle, in square units; else 0
+    double tolerance;         // the knob: for shadow.c
     occ_eye constants;
 } occ_camera;
 

@@ -19,6 +19,7 @@ typedef struct occ_frame {
     occ_array heap;    // of select_entry
     occ_array blocks;  // of occ_shadow_block: the shadows so far, sixteen by sixteen
     occ_array shadows; // of occ_shadow, frozen after select
+    occ_array wide;    // of occ_wide_shadow: the same
     occ_array sources; // of occ_occluder: whose shadow each is
 
     // walk.c

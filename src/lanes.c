@@ -7,7 +7,6 @@
 #include "lanes.h"
 
 #include "box.h"
-#include "fusion.h"
 
 #ifndef OCC_LANES_NAME
 #define OCC_LANES_NAME plain
@@ -20,6 +19,8 @@
 
 #define ALL_WIDE    ((1u << OCC_WIDTH) - 1u)
 #define NODE_GROUPS (OCC_NODE_LANES / OCC_NODE_WIDTH)
+
+#include "lanes_fusion.h"
 
 // Lanes, from `l` on, whose shadow holds the box's center by more than the bound: a box inside has
 // that too, in floats as well, since s - r rounds to no more than s. Most lanes end here, for a
@@ -215,10 +216,18 @@ static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye
     return outside;
 }
 
+// The objects whose center a shadow holds by more than the bound (as in hold_center()), among those
+// that are open.
+static inline uint32_t centers_inside(const object_lanes *o, const occ_shadow *shadow,
+                                      uint32_t open)
+{
+    for (uint32_t p = 0; p < shadow->planes && open; p++)
+        open &= bits_wide(center_of_objects(o, shadow->plane[p]) > o->e);
+    return open;
+}
+
 static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *shadow, uint32_t open)
 {
-    for (uint32_t p = 0; p < shadow->planes && open; p++) // as in hold_center()
-        open &= bits_wide(center_of_objects(o, shadow->plane[p]) > o->e);
     for (uint32_t p = 0; p < shadow->planes && open; p++) {
         fwide s = center_of_objects(o, shadow->plane[p]), r = reach_of_objects(o, shadow->plane[p]);
         open &= bits_wide(OCC_IS_INSIDE(s, r, o->e));
@@ -226,19 +235,42 @@ static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *sh
     return open;
 }
 
-static uint32_t fuse(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
-                     const occ_candidates *candidates, uint32_t row, uint32_t open)
+// As occ_center_in_frustum().
+static inline uint32_t centers_in_frustum(const object_lanes *o, const occ_eye *eye, uint32_t mask)
 {
-    uint32_t left = open;
-    for (uint32_t l = 0; l < OCC_WIDTH; l++) {
-        if (!(open >> l & 1u)) continue;
+    uint32_t in = ALL_WIDE;
+    for (uint32_t p = 0; p < OCC_SIDE_PLANES; p++)
+        if (mask >> p & 1u) in &= bits_wide(center_of_objects(o, eye->plane[p]) > 0.0f);
+    return in;
+}
+
+// As occ_box_fused().
+static bool fuse(const occ_relative_box *box, const occ_range *range, const occ_eye *eye,
+                 const occ_candidates *candidates, uint32_t row)
+{
+    fusion_lanes fusion;
+    fusion.candidates = fusion.faces = 0;
+    fusion.held = false;
+    for (uint32_t i = 0; i < candidates->count; i++) {
+        uint32_t c = candidates->list[i];
+        if (candidates->shadows[c].owner == row) continue;
+        if (consider(&fusion, box, &candidates->wide[c])) return true;
+    }
+    return fuse_candidates(&fusion, box, eye, range->frustum);
+}
+
+// Objects of `open` that several candidates hide together.
+static uint32_t fuse_objects(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
+                             const occ_candidates *candidates, uint32_t row, uint32_t open)
+{
+    uint32_t hidden = 0;
+    for (; open; open &= open - 1u) {
+        uint32_t l = (uint32_t)__builtin_ctz(open);
         const occ_box box = occ_boxes_get(boxes, row + l);
         occ_relative_box relative = occ_box_relative(&box, eye);
-        if (occ_box_fused(&relative, eye, range->frustum, candidates->shadows, candidates->list,
-                          candidates->count, row + l))
-            left &= ~(1u << l);
+        hidden |= (uint32_t)fuse(&relative, range, eye, candidates, row + l) << l;
     }
-    return left;
+    return hidden;
 }
 
 static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
@@ -251,15 +283,20 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
         load_objects(&lanes, boxes, row, eye);
         uint32_t all = left >= OCC_WIDTH ? ALL_WIDE : (1u << left) - 1u;
         uint32_t outside = outside_frustum(&lanes, eye, range->frustum) & all;
-        uint32_t open = all & ~outside;
+        uint32_t open = all & ~outside, held = 0;
         for (uint32_t c = 0; c < candidates->count && open; c++) {
             const occ_shadow *shadow = &candidates->shadows[candidates->list[c]];
-            uint32_t hidden = inside_shadow(&lanes, shadow, open);
+            uint32_t centers = centers_inside(&lanes, shadow, open);
             uint32_t own = shadow->owner - row;
-            if (own < OCC_WIDTH) hidden &= ~(1u << own);
-            open &= ~hidden;
+            if (own < OCC_WIDTH) centers &= ~(1u << own);
+            if (!centers) continue;
+            held |= centers;
+            open &= ~inside_shadow(&lanes, shadow, centers);
         }
-        if (range->fused) open = fuse(boxes, range, eye, candidates, row, open);
+        if (range->fused && open) {
+            uint32_t doubt = open & (held | ~centers_in_frustum(&lanes, eye, range->frustum));
+            open &= ~fuse_objects(boxes, range, eye, candidates, row, doubt);
+        }
         verdict.visible[i / 32] |= open << i % 32;
         verdict.outside[i / 32] |= outside << i % 32;
     }

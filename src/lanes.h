@@ -18,6 +18,16 @@ typedef struct occ_shadow_block {
     float plane[OCC_SHADOW_PLANES][4][OCC_SHADOW_LANES];
 } occ_shadow_block;
 
+#define OCC_FACE_LANE 6u
+
+// One shadow with its planes side by side: coordinate j of plane p is plane[j][p]. Silhouettes
+// begin at lane 0, faces at OCC_FACE_LANE; everything is inside the planes of the other lanes.
+typedef struct occ_wide_shadow {
+    float plane[4][OCC_SHADOW_LANES];
+} occ_wide_shadow;
+
+void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow);
+
 // Up to eight sibling nodes and what is known of them.
 typedef struct occ_siblings {
     const occ_node *nodes;
@@ -31,6 +41,7 @@ typedef struct occ_siblings {
 // The frozen occluders and a list of those that matter here.
 typedef struct occ_candidates {
     const occ_shadow *shadows;
+    const occ_wide_shadow *wide; // the same shadows
     const uint32_t *list;
     uint32_t count;
 } occ_candidates;

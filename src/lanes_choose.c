@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lanes.h"
 
+#include "fusion.h"
+
 extern const occ_lanes occ_lanes_plain;
 #if OCC_LANES_X86
 extern const occ_lanes occ_lanes_avx2;
@@ -26,4 +28,17 @@ const occ_lanes *occ_lanes_get(uint32_t index)
 const occ_lanes *occ_lanes_choose(void)
 {
     return occ_lanes_get(0);
+}
+
+void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow)
+{
+    *wide = (occ_wide_shadow){{{0.0f}}};
+    for (uint32_t l = 0; l < OCC_SHADOW_LANES; l++)
+        wide->plane[3][l] = 1e30f;
+    uint32_t silhouettes = occ_shadow_silhouettes(shadow);
+    for (uint32_t p = 0; p < shadow->planes; p++) {
+        uint32_t lane = p < silhouettes ? p : OCC_FACE_LANE + p - silhouettes;
+        for (uint32_t j = 0; j < 4; j++)
+            wide->plane[j][lane] = shadow->plane[p][j];
+    }
 }

@@ -197,14 +197,17 @@ static occ_result accept(occ_frame *frame, uint32_t slot, bool with_block)
     uint32_t row = owner == OCC_NO_SLOT ? OCC_NOBODY : scene->objects.value[owner];
     occ_shadow *shadow = occ_array_extend(frame->hooks, &frame->shadows, 1);
     occ_occluder *source = occ_array_extend(frame->hooks, &frame->sources, 1);
-    if (!shadow || !source) return OCC_ERROR_OUT_OF_MEMORY;
+    occ_wide_shadow *wide = occ_array_extend(frame->hooks, &frame->wide, 1);
+    if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_box *box = &occ_scene_occluder_boxes(scene)[slot];
     if (!occ_shadow_init(shadow, &frame->camera, box, row)) return OCC_SUCCESS;
     *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
     if (with_block && add_to_block(frame, shadow, frame->shadows.count)) {
         return OCC_ERROR_OUT_OF_MEMORY;
     }
+    occ_wide_shadow_set(wide, shadow);
     frame->shadows.count++;
+    frame->wide.count++;
     frame->sources.count++;
     return OCC_SUCCESS;
 }
@@ -232,7 +235,8 @@ static occ_result select_all(occ_frame *frame)
 occ_result occ_select(occ_frame *frame)
 {
     frame->heap.element = sizeof(select_entry);
-    frame->heap.count = frame->blocks.count = frame->shadows.count = frame->sources.count = 0;
+    frame->heap.count = frame->blocks.count = frame->shadows.count = frame->wide.count =
+        frame->sources.count = 0;
     occ_result result = OCC_SUCCESS;
     if (frame->knobs.method == OCC_METHOD_PAIRWISE) {
         result = select_all(frame);

@@ -129,46 +129,101 @@ static double cross_error(const double from[3], const double axis[3])
     return 8.0 * EPS * most;
 }
 
-// The plane through the eye and an edge, turned so that the face's middle is inside.
-static bool add_silhouette(occ_shadow *shadow, const solid *s, const occ_camera *camera,
-                           const face *f, const edge *e)
+// A silhouette edge's plane through the eye: n.x = 0, the face's middle inside.
+typedef struct rim {
+    double n[3], error; // of its components
+    double point[3];    // the edge's middle
+    double ray[3];      // towards it
+    uint32_t corners;   // bit c: the edge ends at corner c of the box
+} rim;
+
+static void set_rim(rim *r, const solid *s, const occ_camera *camera, const face *f, const edge *e)
 {
-    double point[3], ray[3], bound[3], n[3];
+    double bound[3];
     for (int j = 0; j < 3; j++) {
-        point[j] = f->center[j] + (double)e->side * s->axis[e->across][j];
-        ray[j] = camera->orthographic ? -camera->toward[j] : point[j];
-        bound[j] = camera->orthographic ? fabs(ray[j]) : s->size[j];
+        r->point[j] = f->center[j] + (double)e->side * s->axis[e->across][j];
+        r->ray[j] = camera->orthographic ? -camera->toward[j] : r->point[j];
+        bound[j] = camera->orthographic ? fabs(r->ray[j]) : s->size[j];
     }
-    occ_cross(ray, s->axis[e->along], n);
-    double error = cross_error(bound, s->axis[e->along]), d = 0.0, d_error = 0.0;
+    occ_cross(r->ray, s->axis[e->along], r->n);
+    r->error = cross_error(bound, s->axis[e->along]);
     // With a and b for the two axes and m for the face's middle, (m + side a) x b . m is
     // side (a x b) . m; a x b is ±normal[k], and see_face() knows the sign of normal[k] . m.
     bool cyclic = e->across == (e->k + 1) % 3;
     bool inward = (f->facing < 0.0) == (e->side > 0) ? cyclic : !cyclic;
     for (int j = 0; j < 3; j++)
-        n[j] = inward ? n[j] : -n[j];
-    if (camera->orthographic) {
-        d = -occ_dot(n, point);
-        d_error = 16.0 * EPS * occ_dot_magnitude(n, s->size) + 3.0 * error * occ_largest(s->size);
-    } else {
-        d_error = 8.0 * EPS * occ_dot_magnitude(n, camera->doubt);
-    }
-    return add_plane(shadow, n, error, d, d_error);
+        r->n[j] = inward ? r->n[j] : -r->n[j];
+    uint32_t end = (f->sign > 0 ? 1u << e->k : 0u) | (e->side > 0 ? 1u << e->across : 0u);
+    r->corners = 1u << end | 1u << (end | 1u << e->along);
 }
 
-// All silhouette edges of V: those whose other face is not in V.
-static bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera *camera,
-                            const face seen[3])
+// All silhouette edges of V: those whose other face is not in V. Returns how many.
+static int set_rims(rim rims[OCC_SHADOW_PLANES], const solid *s, const occ_camera *camera,
+                    const face seen[3])
 {
+    int count = 0;
     for (int k = 0; k < 3; k++) {
         if (!seen[k].sign) continue;
         for (int i = 0; i < 4; i++) {
             int turn = 1 + i / 2, side = i % 2 ? -1 : 1;
             edge e = {k, side, (k + turn) % 3, (k + 3 - turn) % 3};
             if (seen[e.across].sign == side) continue;
-            if (!add_silhouette(shadow, s, camera, &seen[k], &e)) return false;
+            set_rim(&rims[count++], s, camera, &seen[k], &e);
         }
     }
+    return count;
+}
+
+// Turns the planes outward about the eye, by t = tolerance / 2 in the middle of their edges: to the
+// unit normal n, t m is added, m being the direction of that middle. Whatever m rounds to, its
+// length is 1: a point x is inside the new plane only if n.x > -t |x|, so that nothing rounds but
+// n, as before. Where two planes meet at an angle a below 90 degrees their corner would move by t /
+// sin(a / 2), without bound; there t is made less, so that no corner moves by more than that of a
+// square. (With unit normals n and n', 1 + n.n' is 2 sin(a / 2)^2.)
+static void turn_outward(rim rims[OCC_SHADOW_PLANES], int count, double tolerance)
+{
+    double unit[OCC_SHADOW_PLANES][3], length[OCC_SHADOW_PLANES];
+    for (int i = 0; i < count; i++) {
+        length[i] = sqrt(occ_dot(rims[i].n, rims[i].n));
+        for (int j = 0; j < 3; j++)
+            unit[i][j] = rims[i].n[j] / length[i];
+    }
+    for (int i = 0; i < count; i++) {
+        double limit = 1.0;
+        for (int k = 0; k < count; k++)
+            if (k != i && rims[i].corners & rims[k].corners)
+                limit = fmin(limit, sqrt(fmax(1.0 + occ_dot(unit[i], unit[k]), 0.0)));
+        double by = 0.5 * tolerance * (1.0 - 0x1p-20) * limit;
+        double scale = by * length[i] / sqrt(occ_dot(rims[i].ray, rims[i].ray));
+        for (int j = 0; j < 3; j++)
+            rims[i].n[j] += scale * rims[i].ray[j];
+        rims[i].error += 4.0 * EPS * length[i];
+    }
+}
+
+static bool add_rim(occ_shadow *shadow, const solid *s, const occ_camera *camera, const rim *r)
+{
+    const double *n = r->n;
+    double d = 0.0, d_error = 0.0;
+    if (camera->orthographic) {
+        d = -occ_dot(n, r->point);
+        d_error =
+            16.0 * EPS * occ_dot_magnitude(n, s->size) + 3.0 * r->error * occ_largest(s->size);
+    } else {
+        d_error = 8.0 * EPS * occ_dot_magnitude(n, camera->doubt);
+    }
+    return add_plane(shadow, n, r->error, d, d_error);
+}
+
+static bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera *camera,
+                            const face seen[3])
+{
+    rim rims[OCC_SHADOW_PLANES];
+    int count = set_rims(rims, s, camera, seen);
+    if (camera->tolerance > 0.0 && !camera->orthographic)
+        turn_outward(rims, count, camera->tolerance);
+    for (int i = 0; i < count; i++)
+        if (!add_rim(shadow, s, camera, &rims[i])) return false;
     return true;
 }
 

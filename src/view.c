@@ -2,14 +2,11 @@
 // Views, and the frame from end to end: select, walk, test, hand over.
 #include "view_data.h"
 
+#include "knobs.h"
 #include "log.h"
 
 #include <string.h>
 #include <time.h>
-
-#define DEFAULT_MIN_AREA      2e-4f
-#define DEFAULT_MAX_OCCLUDERS 1024u
-#define DEFAULT_GRAIN         64u
 
 static double now_ms(void)
 {
@@ -81,29 +78,16 @@ void occ_view_destroy(occ_view *view)
     occ_free(&hooks, view, sizeof *view);
 }
 
-static occ_result set_knobs(occ_view *view, const occ_cull_desc *desc)
-{
-    occ_cull_desc *knobs = &view->frame.knobs;
-    *knobs = (occ_cull_desc){.method = OCC_METHOD_SINGLE};
-    if (desc) *knobs = *desc;
-    if ((unsigned)knobs->method > OCC_METHOD_FUSED) {
-        return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no method %d",
-                        (int)knobs->method);
-    }
-    if (!(knobs->min_area >= 0.0f)) {
-        return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "min_area is negative or NaN");
-    }
-    if (knobs->min_area == 0.0f) knobs->min_area = DEFAULT_MIN_AREA;
-    if (!knobs->max_occluders) knobs->max_occluders = DEFAULT_MAX_OCCLUDERS;
-    if (!knobs->grain) knobs->grain = DEFAULT_GRAIN;
-    return OCC_SUCCESS;
-}
-
-static occ_result set_camera(occ_view *view, const occ_camera_desc *camera)
+// The knobs must be set.
+static occ_result set_camera(occ_view *view, const occ_camera_desc *desc)
 {
     const char *reason = "";
-    occ_result result = occ_camera_init(&view->frame.camera, camera, &reason);
-    return result ? occ_fail(&view->hooks, result, "%s", reason) : OCC_SUCCESS;
+    occ_camera *camera = &view->frame.camera;
+    occ_result result = occ_camera_init(camera, desc, &reason);
+    if (result) return occ_fail(&view->hooks, result, "%s", reason);
+    camera->tolerance = (double)view->frame.knobs.tolerance;
+    camera->constants.splits = view->frame.knobs.max_splits;
+    return OCC_SUCCESS;
 }
 
 static occ_result run_test(occ_view *view)
@@ -117,6 +101,7 @@ static occ_result run_test(occ_view *view)
     occ_test_job job = {.scene = frame->scene,
                         .eye = &frame->camera.constants,
                         .shadows = frame->shadows.data,
+                        .wide = frame->wide.data,
                         .shadow_count = frame->shadows.count,
                         .ranges = frame->ranges.data,
                         .range_count = frame->ranges.count,
@@ -189,7 +174,7 @@ occ_result occ_cull(occ_view *view, const occ_scene *scene, const occ_camera_des
     if (!occ_scene_is_committed(scene)) {
         return occ_fail(&view->hooks, OCC_ERROR_NOT_COMMITTED, "call occ_scene_commit() first");
     }
-    occ_result result = set_knobs(view, desc);
+    occ_result result = occ_knobs_init(&view->frame.knobs, desc, &view->hooks);
     if (!result) result = set_camera(view, camera);
     if (result) return result;
     view->frame.scene = scene;

@@ -70,7 +70,7 @@ static occ_result test_siblings(occ_frame *frame, occ_siblings *siblings, const 
                                 uint32_t count)
 {
     const occ_eye *eye = &frame->camera.constants;
-    occ_candidates candidates = {frame->shadows.data, list, count};
+    occ_candidates candidates = {frame->shadows.data, frame->wide.data, list, count};
     frame->touched.count = 0;
     uint8_t *touched = occ_array_extend(frame->hooks, &frame->touched, (size_t)count + 1);
     if (!touched) return OCC_ERROR_OUT_OF_MEMORY;

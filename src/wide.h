@@ -80,4 +80,31 @@ static inline uint32_t bits_wide(iwide truth)
 #endif
 }
 
+// Where a comparison holds: x, else y.
+static inline fwide select_wide(iwide truth, fwide x, fwide y)
+{
+    return (fwide)(((iwide)x & truth) | ((iwide)y & ~truth));
+}
+
+#if OCC_WIDTH == 16
+// Lane l of the result is lane index[l] of x.
+static inline fwide permute_wide(fwide x, iwide index)
+{
+    return (fwide)_mm512_permutexvar_ps((__m512i)index, (__m512)x);
+}
+#endif
+
+// The largest of the lanes that `lanes` names, or 0 if none is larger.
+static inline float largest_of_wide(fwide x, uint32_t lanes)
+{
+#if OCC_WIDTH == 16
+    return _mm512_reduce_max_ps(_mm512_maskz_mov_ps((__mmask16)lanes, (__m512)x));
+#else
+    float most = 0.0f;
+    for (uint32_t l = 0; l < OCC_WIDTH; l++)
+        if ((lanes >> l & 1u) && x[l] > most) most = x[l];
+    return most;
+#endif
+}
+
 #endif

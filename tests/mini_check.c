@@ -25,13 +25,14 @@ void mini_close_views(mini_views *views)
     *views = (mini_views){.view = {NULL}};
 }
 
-// The methods, and `single` a second time with nodes and limits as they are by default.
+// The methods; `single` and `fused` a second time with nodes and limits as they are by default, or
+// as the fast preset has them.
 typedef struct trial {
     const char *name;
     occ_cull_desc knobs;
 } trial;
 
-enum { TRIALS = 5 };
+enum { TRIALS = 6 };
 
 static void set_trials(trial trials[TRIALS])
 {
@@ -41,6 +42,7 @@ static void set_trials(trial trials[TRIALS])
     trials[2].knobs.grain = 1;
     trials[3] = (trial){"single", {.method = OCC_METHOD_SINGLE}};
     trials[4] = (trial){"fused", world_knobs(OCC_METHOD_FUSED)};
+    trials[5] = (trial){"fused", {.method = OCC_METHOD_FUSED, .preset = OCC_PRESET_FAST}};
 }
 
 // One world under examination. The judges come when an object is left out.

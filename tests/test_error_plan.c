@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the error report runs on a scene.
 #include "error_plan.h"
+#include "kit.h"
 #include "kit_obs.h"
+#include "knobs.h"
 #include "obs.h"
 #include "scenes.h"
 #include "support.h"
@@ -17,7 +19,8 @@ typedef struct plan {
 static plan planned(uint32_t objects, uint32_t occluders, bool is_quick, bool has_opencl)
 {
     const obs_scene scene = {.object_count = objects, .occluder_count = occluders};
-    const error_options options = {.repeats = 3, .is_quick = is_quick, .has_opencl = has_opencl};
+    const error_options options = {
+        .repeats = 3, .is_quick = is_quick, .has_opencl = has_opencl, .has_tolerance = true};
     plan p;
     p.count = error_plan(&options, &scene, p.runs);
     return p;
@@ -111,6 +114,40 @@ START_TEST(settings_have_names_of_their_own)
 }
 END_TEST
 
+// How many runs have the setting; all of them with or without the promise.
+static size_t count_setting(const plan *p, const char *setting, bool promises)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        char text[64];
+        error_run_setting(&p->runs[i], text, sizeof text);
+        if (strcmp(text, setting) != 0) continue;
+        ck_assert_str_eq(p->runs[i].method->name, "fused");
+        ck_assert(error_run_is_one_sided(&p->runs[i]) == promises);
+        ck_assert(!error_run_is_default(&p->runs[i]));
+        count++;
+    }
+    return count;
+}
+
+START_TEST(fused_is_run_with_presets_and_where_asked_with_tolerances)
+{
+    const obs_scene scene = {.object_count = 1000, .occluder_count = 1000};
+    const error_options options = {.repeats = 3};
+    plan p = planned(1000, 1000, true, false), without;
+    without.count = error_plan(&options, &scene, without.runs);
+    ck_assert_uint_eq(count_setting(&p, "preset fast", true), 2);
+    ck_assert_uint_eq(count_setting(&p, "preset thorough", true), 2);
+    ck_assert_uint_eq(count_setting(&without, "preset thorough", true), 2);
+    static const char *const tolerances[] = {"tolerance 0.0003", "tolerance 0.001",
+                                             "tolerance 0.003"};
+    for (int i = 0; i < 3; i++) {
+        ck_assert_uint_eq(count_setting(&p, tolerances[i], false), 2);
+        ck_assert_uint_eq(count_setting(&without, tolerances[i], false), 0);
+    }
+}
+END_TEST
+
 // What a cull did is told by its statistics: equal knobs, equal figures.
 static bool does_the_same(const occ_view_stats *a, const occ_view_stats *b)
 {
@@ -167,6 +204,14 @@ START_TEST(stated_defaults_are_the_librarys)
     altered[1].max_occluders -= 24;
     altered[2].grain /= 2;
 
+    occ_cull_desc library;
+    occ_hooks hooks;
+    static const occ_allocator no_allocator;
+    static const occ_logger no_logger;
+    ck_assert_int_eq(occ_hooks_init(&hooks, &no_allocator, &no_logger), OCC_SUCCESS);
+    ck_assert_int_eq(occ_knobs_init(&library, NULL, &hooks), OCC_SUCCESS);
+    ck_assert(kit_same_bits(&library, usual, sizeof library));
+
     obs_scene file = make_wall();
     occ_scene *scene = kit_obs_scene(&file, &fine, NULL, NULL);
     occ_view *view;
@@ -211,6 +256,7 @@ int main(void)
     tcase_add_test(runs, quadratic_methods_sit_out_large_scenes);
     tcase_add_test(runs, without_a_device_opencl_is_skipped);
     tcase_add_test(runs, settings_have_names_of_their_own);
+    tcase_add_test(runs, fused_is_run_with_presets_and_where_asked_with_tolerances);
     tcase_add_test(runs, hard_families_are_run_at_three_scales);
     suite_add_tcase(suite, runs);
     TCase *knobs = tcase_create("knobs");

@@ -109,6 +109,9 @@ START_TEST(row_has_a_value_in_every_column_that_applies)
                                      {"min_area_sr", "0.0002"},
                                      {"max_occluders", "1024"},
                                      {"grain", "64"},
+                                     {"max_splits", ""},
+                                     {"tolerance_rad", ""},
+                                     {"preset", ""},
                                      {"rays", ""},
                                      {"scale", "1"},
                                      {"frames", "60"},
@@ -138,6 +141,17 @@ START_TEST(what_does_not_apply_is_empty)
     assert_as_many_columns(&rays);
     assert_column(&rays, "rays", "85x48");
     assert_column(&rays, "grain", "");
+    error_row fused = make_row("city_1000", "fused", "plain");
+    fused.run.settings.knobs.tolerance = 0.25f;
+    assert_as_many_columns(&fused);
+    assert_column(&fused, "max_splits", "48");
+    assert_column(&fused, "tolerance_rad", "0.25");
+    assert_column(&fused, "preset", "balanced");
+    fused.run.settings.knobs = (occ_cull_desc){.preset = OCC_PRESET_FAST};
+    assert_as_many_columns(&fused);
+    assert_column(&fused, "max_splits", "");
+    assert_column(&fused, "min_area_sr", "");
+    assert_column(&fused, "preset", "fast");
     error_row untimed = make_row("hard/panels", "thesis", "plain");
     untimed.is_timed = false;
     untimed.run.scale = 0.01;
@@ -173,6 +187,10 @@ START_TEST(broken_promises_are_those_of_the_one_sided)
     row = make_row("city_1000", "single", "opencl");
     row.sums.false_hidden = 2;
     ck_assert(error_table_add(&table, &row));
+    ck_assert(error_table_add(&table, &row));
+    row = make_row("city_1000", "fused", "plain");
+    row.sums.false_hidden = 7;
+    row.run.settings.knobs.tolerance = 1e-3f; // with it there is no such promise
     ck_assert(error_table_add(&table, &row));
     ck_assert_uint_eq(error_table_broken_promises(&table), 4);
     error_table_free(&table);

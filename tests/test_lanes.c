@@ -194,7 +194,8 @@ START_TEST(every_instruction_set_decides_siblings_alike)
     for (unsigned i = 0; i < ROUNDS; i++) {
         family f;
         make_family(&random, &f);
-        occ_candidates candidates = {shadows, list, kit_below(&random, MOST + 1)};
+        occ_candidates candidates = {
+            .shadows = shadows, .list = list, .count = kit_below(&random, MOST + 1)};
         for (uint32_t k = 0; k < candidates.count; k++) {
             list[k] = candidates.count - 1 - k;
             edge_shadow(&random, &f.boxes[kit_below(&random, f.siblings.count)], f.size, 1400,
@@ -296,7 +297,8 @@ START_TEST(every_instruction_set_decides_objects_alike)
             occ_relative_box edge = row_of(&c, range.first + kit_below(&random, range.count));
             edge_plane(&random, &edge, c.size, c.eye.plane[p]);
         }
-        occ_candidates candidates = {shadows, list, kit_below(&random, MOST_CANDIDATES + 1)};
+        occ_candidates candidates = {
+            .shadows = shadows, .list = list, .count = kit_below(&random, MOST_CANDIDATES + 1)};
         for (uint32_t k = 0; k < candidates.count; k++) {
             occ_relative_box edge = row_of(&c, range.first + kit_below(&random, range.count));
             list[k] = candidates.count - 1 - k;

@@ -316,14 +316,15 @@ END_TEST
 
 START_TEST(zero_stands_for_the_documented_default)
 {
-    static const occ_cull_desc documented = {OCC_METHOD_SINGLE, 2e-4f, 1024, 64};
+    static const occ_cull_desc documented = {
+        .min_area = 2e-4f, .max_occluders = 1024, .grain = 64, .max_splits = 48};
     for (uint32_t i = 0; i < 5; i++) {
         occ_camera_desc camera = kit_path(i);
         uint32_t *masks[3];
         size_t words[3];
         occ_view_stats stats[3];
         for (int k = 0; k < 3; k++) {
-            const occ_cull_desc zero = {OCC_METHOD_SINGLE, 0, 0, 0};
+            const occ_cull_desc zero = {.method = OCC_METHOD_SINGLE};
             kit_cull(view, scene, &camera, k == 0 ? NULL : k == 1 ? &zero : &documented);
             masks[k] = kit_mask(view, &words[k]);
             stats[k] = stats_of();

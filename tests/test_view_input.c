@@ -151,12 +151,36 @@ START_TEST(area_that_is_negative_or_unknown_is_refused)
 }
 END_TEST
 
+START_TEST(preset_that_does_not_exist_is_refused)
+{
+    occ_camera_desc camera = kit_path(0);
+    occ_cull_desc knobs = {.preset = (occ_preset)(OCC_PRESET_THOROUGH + 1)};
+    check_refused(&camera, &knobs, OCC_ERROR_INVALID_ARGUMENT, "preset 3");
+    knobs.preset = (occ_preset)-1;
+    check_refused(&camera, &knobs, OCC_ERROR_INVALID_ARGUMENT, "preset -1");
+}
+END_TEST
+
+START_TEST(tolerance_that_is_negative_too_large_or_unknown_is_refused)
+{
+    static const float bad[] = {-1e-30f, -INFINITY, NAN, INFINITY, 0.1000001f, 1};
+    occ_camera_desc camera = kit_path(0);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        occ_cull_desc knobs = {.tolerance = bad[i]};
+        check_refused(&camera, &knobs, OCC_ERROR_INVALID_ARGUMENT, "tolerance");
+    }
+}
+END_TEST
+
 START_TEST(extreme_knobs_are_accepted)
 {
     static const occ_cull_desc extreme[] = {{.min_area = 1e-30f, .grain = 1, .max_occluders = 1},
                                             {.min_area = 0x1p-149f, .max_occluders = UINT32_MAX},
                                             {.min_area = INFINITY, .grain = UINT32_MAX},
                                             {.min_area = FLT_MAX},
+                                            {.tolerance = OCC_MAX_TOLERANCE},
+                                            {.tolerance = 0x1p-149f, .max_splits = UINT32_MAX},
+                                            {.tolerance = -0.0f, .max_splits = 1},
                                             {.min_area = -0.0f}};
     occ_camera_desc camera = kit_path(0);
     for (size_t i = 0; i < sizeof extreme / sizeof *extreme; i++)
@@ -303,6 +327,8 @@ int main(void)
     TCase *knobs = with_fixture(tcase_create("knobs"));
     tcase_add_test(knobs, method_that_does_not_exist_is_refused);
     tcase_add_test(knobs, area_that_is_negative_or_unknown_is_refused);
+    tcase_add_test(knobs, preset_that_does_not_exist_is_refused);
+    tcase_add_test(knobs, tolerance_that_is_negative_too_large_or_unknown_is_refused);
     tcase_add_test(knobs, extreme_knobs_are_accepted);
     suite_add_tcase(suite, knobs);
     TCase *edits = with_fixture(tcase_create("edits"));

@@ -138,7 +138,7 @@ static void check_family(grove *g, const occ_lanes *lanes, const occ_node *paren
     for (int i = 0; i < SHADOWS; i++) {
         occ_shadow shadow;
         uint32_t first = 0;
-        occ_candidates one = {&shadow, &first, 1};
+        occ_candidates one = {.shadows = &shadow, .list = &first, .count = 1};
         uint8_t touched = 0;
         occ_relative_box edge = object_at(g, parent->first + kit_below(&g->random, parent->count));
         edge_shadow(&g->random, &edge, g->size, g->scene->boxes.count, &shadow);

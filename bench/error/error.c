@@ -37,7 +37,8 @@ static const char error_usage[] =
     "  --size WxH     samples of truths (default 4096x2304)\n"
     "  --repeat R     timed culls of each frame (default 3)\n"
     "\n"
-    "Exit status 3 if a method that promises not to hides a visible object, or if backends\n"
+    "Exit status 3 if a method that promises not to hides a visible object (with a tolerance it\n"
+    "makes no such promise), or if backends\n"
     "disagree about an object.\n"
     "\n"
     "Example: occlude-bench error --quick --out error\n";
@@ -131,7 +132,9 @@ static error_status run_scene(const error_arguments *arguments, const error_trut
     case ERROR_FAILED:
         return ERROR_UNUSABLE;
     }
-    error_status status = error_measure_scene(&arguments->options, truths, name, &scene, table);
+    error_options options = arguments->options;
+    options.has_tolerance = error_scene_has_tolerance(name);
+    error_status status = error_measure_scene(&options, truths, name, &scene, table);
     obs_free(&scene);
     if (status == ERROR_UNUSABLE) return status;
     printf("%s: %zu runs in %.1f s\n", name, table->count - before, (timing_now() - start) / 1000);

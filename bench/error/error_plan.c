@@ -7,14 +7,15 @@
 const error_method error_methods[] = {
     {"frustum", ERROR_ONE_SIDED},
     {"single", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED},
-    {"fused", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED},
+    {"fused", ERROR_BACKENDS | ERROR_KNOBS | ERROR_SCALES | ERROR_ONE_SIDED | ERROR_PRESETS},
     {"pairwise", ERROR_BACKENDS | ERROR_BRIEF | ERROR_ONE_SIDED},
     {"embree-depth", ERROR_THREADS | ERROR_RAYS},
     {"embree-rays", ERROR_THREADS | ERROR_BRIEF},
     {"thesis", ERROR_SCALES | ERROR_BRIEF},
     {NULL, 0}};
 
-const occ_cull_desc error_default_knobs = {.min_area = 2e-4f, .max_occluders = 1024, .grain = 64};
+const occ_cull_desc error_default_knobs = {
+    .min_area = 2e-4f, .max_occluders = 1024, .grain = 64, .max_splits = 48};
 
 // One knob is turned at a time, in the order in which a curve is drawn.
 static const struct {
@@ -32,6 +33,17 @@ static const struct {
     {{.min_area = 2e-4f, .max_occluders = 1024, .grain = 256}, false},
 };
 enum { SETTINGS = sizeof error_settings / sizeof *error_settings };
+
+// What their knobs are the library says.
+static const struct {
+    const char *name;
+    occ_preset preset;
+} error_presets[] = {{"fast", OCC_PRESET_FAST}, {"thorough", OCC_PRESET_THOROUGH}};
+enum { PRESETS = sizeof error_presets / sizeof *error_presets };
+
+// In radians, beside 0.
+static const float error_tolerances[] = {3e-4f, 1e-3f, 3e-3f};
+enum { TOLERANCES = sizeof error_tolerances / sizeof *error_tolerances };
 
 // The first is the default.
 static const struct {
@@ -97,9 +109,10 @@ static void put(planner *plan, error_run run)
     if (plan->count < ERROR_MAX_RUNS) plan->runs[plan->count++] = run;
 }
 
-static void put_backends(planner *plan, error_run run)
+// On the first `most` of the backends.
+static void put_some_backends(planner *plan, error_run run, int most)
 {
-    for (int b = 0; b < BACKENDS; b++) {
+    for (int b = 0; b < most; b++) {
         if (!(run.method->traits & error_backends[b].traits)) continue;
         run.settings.backend = error_backends[b].backend;
         run.settings.threads = error_backends[b].threads;
@@ -109,12 +122,32 @@ static void put_backends(planner *plan, error_run run)
     }
 }
 
+static void put_backends(planner *plan, error_run run)
+{
+    put_some_backends(plan, run, BACKENDS);
+}
+
 static void put_knobs(planner *plan, error_run run)
 {
     for (int s = 0; s < SETTINGS; s++) {
         if (plan->options->is_quick && !error_settings[s].is_quick) continue;
         run.settings.knobs = error_settings[s].knobs;
+        run.settings.knobs.max_splits = error_default_knobs.max_splits;
         put_backends(plan, run);
+    }
+}
+
+// On plain C and one thread of OpenMP.
+static void put_presets(planner *plan, error_run run)
+{
+    for (int p = 0; p < PRESETS; p++) {
+        run.settings.knobs = (occ_cull_desc){.preset = error_presets[p].preset};
+        put_some_backends(plan, run, 2);
+    }
+    run.settings.knobs = error_default_knobs;
+    for (int t = 0; t < TOLERANCES && plan->options->has_tolerance; t++) {
+        run.settings.knobs.tolerance = error_tolerances[t];
+        put_some_backends(plan, run, 2);
     }
 }
 
@@ -150,6 +183,7 @@ static void put_method(planner *plan, const error_method *method)
         put_rays(plan, run);
     else
         put_backends(plan, run);
+    if (!run.skipped && method->traits & ERROR_PRESETS) put_presets(plan, run);
     if (!run.skipped && plan->has_scales && method->traits & ERROR_SCALES) put_scales(plan, run);
 }
 
@@ -183,8 +217,10 @@ size_t error_plan_hard(const error_options *options, error_run runs[ERROR_MAX_RU
 
 static bool are_equal_knobs(const occ_cull_desc *a, const occ_cull_desc *b)
 {
-    return !(a->min_area < b->min_area) && !(a->min_area > b->min_area) &&
-           a->max_occluders == b->max_occluders && a->grain == b->grain;
+    return a->preset == b->preset && !(a->min_area < b->min_area) && !(a->min_area > b->min_area) &&
+           a->max_occluders == b->max_occluders && a->grain == b->grain &&
+           a->max_splits == b->max_splits && !(a->tolerance < b->tolerance) &&
+           !(a->tolerance > b->tolerance);
 }
 
 static bool are_equal_rays(const measure_settings *a, const measure_settings *b)
@@ -209,6 +245,19 @@ bool error_run_is_default(const error_run *run)
     return error_run_equals(run, &usual);
 }
 
+bool error_run_is_one_sided(const error_run *run)
+{
+    return run->method->traits & ERROR_ONE_SIDED && !(run->settings.knobs.tolerance > 0.0f);
+}
+
+// NULL: none but the default one.
+static const char *preset_name(occ_preset preset)
+{
+    for (int p = 0; p < PRESETS; p++)
+        if (error_presets[p].preset == preset) return error_presets[p].name;
+    return NULL;
+}
+
 void error_run_setting(const error_run *run, char *text, size_t size)
 {
     const occ_cull_desc *knobs = &run->settings.knobs, *usual = &error_default_knobs;
@@ -216,6 +265,10 @@ void error_run_setting(const error_run *run, char *text, size_t size)
         snprintf(text, size, "scale %g", run->scale);
     else if (run->method->traits & ERROR_RAYS)
         snprintf(text, size, "%ux%u rays", run->settings.rays_width, run->settings.rays_height);
+    else if (preset_name(knobs->preset))
+        snprintf(text, size, "preset %s", preset_name(knobs->preset));
+    else if (knobs->tolerance > 0.0f)
+        snprintf(text, size, "tolerance %g", (double)knobs->tolerance);
     else if (knobs->min_area < usual->min_area || knobs->min_area > usual->min_area)
         snprintf(text, size, "min_area %g", (double)knobs->min_area);
     else if (knobs->max_occluders != usual->max_occluders)

@@ -8,13 +8,14 @@
 
 /// What may be varied of a method, and how it is run.
 typedef enum error_traits {
-    ERROR_BACKENDS = 1,  ///< Runs on every backend; their verdicts must be the same.
-    ERROR_THREADS = 2,   ///< Runs on one thread and on all; their verdicts must be the same.
-    ERROR_KNOBS = 4,     ///< Takes min_area, max_occluders and grain.
-    ERROR_RAYS = 8,      ///< Takes a size of its buffer of rays.
-    ERROR_SCALES = 16,   ///< Is shown at scales 0.01, 1 and 100.
-    ERROR_BRIEF = 32,    ///< Slow: once, on the truth's frames alone.
-    ERROR_ONE_SIDED = 64 ///< Promises that nothing visible is reported hidden.
+    ERROR_BACKENDS = 1,   ///< Runs on every backend; their verdicts must be the same.
+    ERROR_THREADS = 2,    ///< Runs on one thread and on all; their verdicts must be the same.
+    ERROR_KNOBS = 4,      ///< Takes min_area, max_occluders and grain.
+    ERROR_RAYS = 8,       ///< Takes a size of its buffer of rays.
+    ERROR_SCALES = 16,    ///< Is shown at scales 0.01, 1 and 100.
+    ERROR_BRIEF = 32,     ///< Slow: once, on the truth's frames alone.
+    ERROR_ONE_SIDED = 64, ///< Promises that nothing visible is reported hidden.
+    ERROR_PRESETS = 128 ///< Is shown with all presets, and with a tolerance: then it promises less.
 } error_traits;
 
 /// A method that is reported. A new one is a line in error_plan.c.
@@ -44,10 +45,11 @@ typedef struct error_options {
     uint32_t hidden; ///< Most objects hidden for both that it looks at.
     bool is_quick;   ///< Fewer knobs.
     bool has_opencl; ///< There is a device.
+    bool has_tolerance; ///< Tolerances are shown as well.
 } error_options;
 
 /// Most runs of a scene.
-enum { ERROR_MAX_RUNS = 96 };
+enum { ERROR_MAX_RUNS = 128 };
 
 /// Fills `runs` with what is to be run on the scene and returns how many. Runs whose verdicts must
 /// be equal stand together: see error_run_equals().
@@ -63,7 +65,10 @@ bool error_run_equals(const error_run *a, const error_run *b);
 /// Whether the run is its method's default one, whatever the backend.
 bool error_run_is_default(const error_run *run);
 
-/// What is set: "default", "min_area 0.002", "256x144 rays", "scale 0.01".
+/// Whether the run promises that nothing visible is reported hidden.
+bool error_run_is_one_sided(const error_run *run);
+
+/// What is set: "default", "min_area 0.002", "preset fast", "256x144 rays", "scale 0.01".
 void error_run_setting(const error_run *run, char *text, size_t size);
 
 /// The library's defaults, stated.

@@ -30,6 +30,8 @@ static const plot_style plot_styles[] = {
     {"single", "opencl", "min_area", "single, OpenCL", 0.9, 0, 0x00a080, 7, false, true},
     {"fused", "openmp", "min_area", "fused, 1 thread, min_area", 1.2, 1, 0x007030, 7, false, true},
     {"fused", "openmp", "max_occluders", "  max_occluders", 1, 1, 0x007030, 8, true, false},
+    {"fused", "openmp", "preset", "  presets fast, thorough", 1.3, 1, 0x007030, 5, true, false},
+    {"fused", "openmp", "tolerance", "  tolerance, hides visible", 1, 1, 0x80a000, 12, false, true},
     {"pairwise", "openmp", NULL, "pairwise, 1 thread", 1.3, 1, 0x8040c0, 13, false, false},
     {"frustum", "plain", NULL, "frustum alone, 1 thread", 1.2, 0, 0x000000, 2, false, false},
     {"embree-depth", "plain", "rays", "Embree, depth buffer, 1 thread", 1.1, 0, 0xc06000, 11, false,

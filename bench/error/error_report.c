@@ -23,8 +23,10 @@ bool error_is_summary(const error_row *row)
     if (run->skipped || strcmp(run->settings.backend, backend) != 0) return false;
     // The thesis's test is another thing at every scale.
     if (!(run->method->traits & ERROR_ONE_SIDED) && run->method->traits & ERROR_SCALES) return true;
+    // Presets stand beside the default, which is one of them.
+    bool is_preset = run->settings.knobs.preset != OCC_PRESET_BALANCED;
     bool is_one_thread = !(run->method->traits & ERROR_BACKENDS) || run->settings.threads == 1;
-    return is_one_thread && error_run_is_default(run);
+    return is_one_thread && (is_preset || error_run_is_default(run));
 }
 
 void error_summary_name(const error_row *row, char *text, size_t size)

@@ -33,8 +33,8 @@ bool error_plot_scene(const char *path, const error_table *table, size_t first, 
 /// The first row after `first` that is of another scene.
 size_t error_scene_end(const error_table *table, size_t first);
 
-/// Whether the run stands for its method in a summary: the default setting on one thread, the
-/// fastest backend that has one.
+/// Whether the run stands for its method in a summary: the default setting or a preset on one
+/// thread, the fastest backend that has one.
 bool error_is_summary(const error_row *row);
 
 /// Its method, and what is set of it.

@@ -26,8 +26,7 @@ uint64_t error_table_broken_promises(const error_table *table)
 {
     uint64_t count = 0;
     for (size_t i = 0; i < table->count; i++)
-        if (table->rows[i].run.method->traits & ERROR_ONE_SIDED)
-            count += table->rows[i].sums.false_hidden;
+        if (error_run_is_one_sided(&table->rows[i].run)) count += table->rows[i].sums.false_hidden;
     return count;
 }
 
@@ -48,7 +47,9 @@ double error_row_visible(const error_row *row)
 
 void error_csv_header(FILE *stream)
 {
-    fputs("scene,method,backend,threads,min_area_sr,max_occluders,grain,rays,scale,frames,objects,"
+    fputs("scene,method,backend,threads,min_area_sr,max_occluders,grain,max_splits,tolerance_rad,"
+          "preset,"
+          "rays,scale,frames,objects,"
           "in_frustum_objects,visible_objects,median_ms,p99_ms,false_hidden_objects,largest_px,"
           "missed_objects,missed_pct,settled_objects,judged_visible_objects,unsettled_objects,"
           "false_confirmed_objects,false_refuted_objects,agreed_judged_objects,"
@@ -56,15 +57,29 @@ void error_csv_header(FILE *stream)
           stream);
 }
 
-// What does not apply to a run is left empty.
+static void write_fusion(FILE *stream, const error_run *run)
+{
+    static const char *const presets[] = {"balanced", "fast", "thorough"};
+    const occ_cull_desc *knobs = &run->settings.knobs;
+    bool has_presets = run->method->traits & ERROR_PRESETS;
+    if (has_presets && knobs->preset == OCC_PRESET_BALANCED)
+        fprintf(stream, "%u", knobs->max_splits);
+    if (has_presets)
+        fprintf(stream, ",%g,%s,", (double)knobs->tolerance, presets[knobs->preset]);
+    else
+        fputs(",,,", stream);
+}
+
+// What does not apply to a run, or follows from its preset, is left empty.
 static void write_setting(FILE *stream, const error_run *run)
 {
     const measure_settings *settings = &run->settings;
     const occ_cull_desc *knobs = &settings->knobs;
-    if (run->method->traits & ERROR_KNOBS)
+    if (run->method->traits & ERROR_KNOBS && knobs->preset == OCC_PRESET_BALANCED)
         fprintf(stream, "%g,%u,%u,", (double)knobs->min_area, knobs->max_occluders, knobs->grain);
     else
         fputs(",,,", stream);
+    write_fusion(stream, run);
     if (run->method->traits & ERROR_RAYS)
         fprintf(stream, "%ux%u", settings->rays_width, settings->rays_height);
     fprintf(stream, ",%g,", run->scale);

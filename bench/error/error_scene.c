@@ -9,27 +9,33 @@
 #include <string.h>
 #include <unistd.h>
 
-const error_source error_sources[] = {{"seedscene_500", "seedscene", 1, 500, true},
-                                      {"seedscene_1000", "seedscene", 1, 1000, true},
-                                      {"seedscene_10000", "seedscene", 1, 10000, true},
-                                      {"seedscene_100000", "seedscene", 1, 100000, false},
-                                      {"city_1000", "city", 2, 1000, true},
-                                      {"city_10000", "city", 2, 10000, true},
-                                      {"city_100000", "city", 2, 100000, false},
-                                      {"city_1000000", "city", 2, 1000000, false},
-                                      {"forest_100000", "forest", 3, 100000, false},
-                                      {"soup_100000", "soup", 4, 100000, false},
-                                      {"interior_10000", "interior", 5, 10000, true},
-                                      {"alphacorp", NULL, 0, 0, false},
-                                      {"institute", NULL, 0, 0, false},
-                                      {"sponza", NULL, 0, 0, false},
-                                      {NULL, NULL, 0, 0, false}};
+const error_source error_sources[] = {{"seedscene_500", "seedscene", 1, 500, true, false},
+                                      {"seedscene_1000", "seedscene", 1, 1000, true, false},
+                                      {"seedscene_10000", "seedscene", 1, 10000, true, false},
+                                      {"seedscene_100000", "seedscene", 1, 100000, false, false},
+                                      {"city_1000", "city", 2, 1000, true, false},
+                                      {"city_10000", "city", 2, 10000, true, true},
+                                      {"city_100000", "city", 2, 100000, false, false},
+                                      {"city_1000000", "city", 2, 1000000, false, false},
+                                      {"forest_100000", "forest", 3, 100000, false, false},
+                                      {"soup_100000", "soup", 4, 100000, false, true},
+                                      {"interior_10000", "interior", 5, 10000, true, true},
+                                      {"alphacorp", NULL, 0, 0, false, false},
+                                      {"institute", NULL, 0, 0, false, false},
+                                      {"sponza", NULL, 0, 0, false, true},
+                                      {NULL, NULL, 0, 0, false, false}};
 
 const error_source *error_source_find(const char *name)
 {
     for (const error_source *source = error_sources; source->name; source++)
         if (strcmp(source->name, name) == 0) return source;
     return NULL;
+}
+
+bool error_scene_has_tolerance(const char *name)
+{
+    const error_source *source = error_source_find(name);
+    return !source || source->has_tolerance;
 }
 
 static error_load make(const char *name, obs_scene *scene)

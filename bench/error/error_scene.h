@@ -13,7 +13,8 @@ typedef struct error_source {
     const char *kind; ///< A generator of scenes.h, or NULL: a model, from a file alone.
     uint64_t seed;
     uint32_t count;
-    bool is_quick; ///< Small enough for --quick.
+    bool is_quick;      ///< Small enough for --quick.
+    bool has_tolerance; ///< Tolerances are turned on it.
 } error_source;
 
 /// All of them; the last has a NULL name.
@@ -21,6 +22,9 @@ extern const error_source error_sources[];
 
 /// The source of that name, or NULL.
 const error_source *error_source_find(const char *name);
+
+/// Whether tolerances are to be turned on the scene: not on most of those that are listed.
+bool error_scene_has_tolerance(const char *name);
 
 typedef enum error_load {
     ERROR_LOADED,

@@ -40,6 +40,14 @@ void judge_filter(judge *j, bool on);
 // given as `self`; -1 is nobody. NULL: they have no owners.
 void judge_set_occluders(judge *j, const occ_box *boxes, const int *owners, size_t count);
 
+// Widens the shadows of all occluders: each plane through the eye and an edge is turned outward
+// about the eye, by atan(`by`) in the middle of the edge; planes of faces stay. What is hidden now
+// is no farther than that outside of the planes of an occluder. Until the next
+// judge_set_occluders(). False if it cannot be said what that is: at infinity, where a clip plane
+// cuts an occluder, or the eye is next to the plane of a face. Then the occluders have to be set
+// again.
+bool judge_grow(judge *j, double by);
+
 // Whether any part of the object is seen. `self` is its number among owners, or -1.
 bool judge_sees(judge *j, const occ_box *object, int self);
 

@@ -5,7 +5,8 @@
 // once, and as integers in a unit of their own, made when a sign needs them.
 //
 // judge_camera.c makes a judge; judge_body.c turns boxes into half-spaces, judge_shadow.c these
-// into shadows; judge_piece.c cuts polygons; judge.c and judge_single.c answer.
+// into shadows; judge_grow.c widens; judge_piece.c cuts polygons; judge.c and judge_single.c
+// answer.
 #ifndef OCC_JUDGE_DATA_H
 #define OCC_JUDGE_DATA_H
 
@@ -47,6 +48,7 @@ typedef struct judge_shadow {
     judge_body body;
     int owner;
     bool empty;
+    bool grown;          // its silhouette planes are as judge_grow() made them
     int halves, clip[2]; // beyond the sides: which clip planes
     int count;
     int one[JUDGE_PLANES], two[JUDGE_PLANES];
@@ -162,6 +164,11 @@ bool judge_holds_eye(const judge *j, const judge_body *body);
 void judge_make_shadow(judge *j, judge_shadow *shadow, const occ_box *box, bool clipped);
 void judge_exact_shadow(judge *j, judge_shadow *shadow);
 void judge_free_shadow(judge_shadow *shadow);
+
+// --- judge_grow.c --------------------------------------------------------------------------------
+
+// A silhouette plane of a shadow that has grown, as integers.
+void judge_grown_plane(const judge_shadow *shadow, int p, mpz_t *out);
 
 // --- judge_sheet.c -------------------------------------------------------------------------------
 

@@ -78,6 +78,7 @@ void judge_make_shadow(judge *j, judge_shadow *shadow, const occ_box *box, bool 
     shadow->count = 0;
     shadow->version = -1;
     shadow->halves = shadow->body.sides;
+    shadow->grown = false;
     shadow->empty = judge_holds_eye(j, &shadow->body);
     if (shadow->empty) return;
     if (clipped) add_clips(j, shadow);
@@ -145,7 +146,10 @@ void judge_exact_shadow(judge *j, judge_shadow *shadow)
         int one = shadow->one[p], two = shadow->two[p];
         for (int i = 0; two < 0 && i < 4; i++)
             mpz_set(shadow->exact[p][i], j->half[one][i]);
-        if (two >= 0) combine(j, shadow, one, two, shadow->exact[p]);
+        if (two >= 0 && shadow->grown)
+            judge_grown_plane(shadow, p, shadow->exact[p]);
+        else if (two >= 0)
+            combine(j, shadow, one, two, shadow->exact[p]);
     }
     shadow->version = j->version;
 }

@@ -67,16 +67,42 @@ typedef enum occ_method {
     OCC_METHOD_FUSED = 3
 } occ_method;
 
-/// The knobs. They trade missed objects for time; none of them can hide a visible object.
+/// What a knob that is left 0 stands for. The figures are in docs/concepts.md.
+typedef enum occ_preset {
+    OCC_PRESET_BALANCED = 0, ///< Default.
+    OCC_PRESET_FAST = 1,     ///< Fewer, larger occluders; fusion gives up soon. Misses more.
+    OCC_PRESET_THOROUGH = 2  ///< Smaller occluders, and more work on each object. Misses least.
+} occ_preset;
+
+/// The greatest `tolerance`, in radians: nearly six degrees.
+#define OCC_MAX_TOLERANCE 0.1f
+
+/// The knobs. All zero, or no desc at all, is a good default. They trade missed objects for time;
+/// none of them can hide a visible object as long as `tolerance` is 0, whatever else is set.
 typedef struct occ_cull_desc {
     occ_method method; ///< Default: single.
+    occ_preset preset; ///< Sets those of the knobs below that are 0. Default: balanced.
     /// The smallest solid angle, in steradians, at which an occluder is worth using: about its
-    /// projected area over its distance squared. Default 0: 2e-4. For every occluder, pass 1e-30.
+    /// projected area over its distance squared; for an orthographic camera, over the view's area.
+    /// 0: the preset's, 2e-4 by default. For every occluder, pass 1e-30.
     float min_area;
-    uint32_t max_occluders; ///< Most occluders used in a frame, nearest first. Default 0: 1024.
+    /// Most occluders used in a frame, nearest first. 0: the preset's, 1024 by default.
+    uint32_t max_occluders;
     /// A node with at most so many objects is handed to the parallel test as it is. Small suits a
-    /// CPU, large a device; it may change what is missed. Default 0: 64.
+    /// CPU, large a device; it may change what is missed. 0: the preset's, 64 by default.
     uint32_t grain;
+    /// FUSED: how many times an occluder may be subtracted from what is left of one object or node
+    /// before it counts as visible: a bound on the time that a single one can take. 0: the
+    /// preset's, 48 by default.
+    uint32_t max_splits;
+    /// Radians. Above 0, occluders count as wider than they are, by half of it on each side, and
+    /// visible objects *may be hidden*: all that can be seen of such an object lies behind
+    /// occluders and next to their outlines, within tolerance / 2 of an edge and within 0.71
+    /// tolerance of a corner. So gaps between occluders that look narrower than this are closed. A
+    /// pixel is about the vertical field of view over the height in pixels. The same for all
+    /// methods and backends; no effect with an orthographic camera, which sees no angles. From 0 to
+    /// OCC_MAX_TOLERANCE. Default 0: nothing that can be seen is hidden.
+    float tolerance;
 } occ_cull_desc;
 
 /// Decides which objects of a committed scene the camera can see, and keeps the result in the view.

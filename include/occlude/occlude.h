@@ -15,11 +15,13 @@
 /// (reversed), as occ_camera_desc says. The far plane may be infinite.
 ///
 /// **What is promised.** An object is reported hidden only if no point of its box can be seen from
-/// the eye past the solid of one single occluder box that is not its own. Rounding never breaks
-/// that: every doubt (a number too near zero, an eye inside an occluder or in the plane of its
-/// face, an occluder that the near plane cuts open) is answered "visible". This is what
-/// *conservative* means here. An object that lies in the very surface of an occluder stays visible.
-/// Objects may be reported visible though hidden; the knobs of occ_cull_desc move how many.
+/// the eye past the solid of one single occluder box that is not its own, or, with the method
+/// FUSED, past those of all of them together. Rounding never breaks that: every doubt (a number too
+/// near zero, an eye inside an occluder or in the plane of its face, an occluder that the near
+/// plane cuts open) is answered "visible". This is what *conservative* means here. An object that
+/// lies in the very surface of an occluder stays visible. Objects may be reported visible though
+/// hidden; the knobs of occ_cull_desc move how many. One of them, `tolerance`, weakens the promise
+/// by an angle; it is 0 unless you set it.
 ///
 /// **Equal answers.** The same scene, camera and knobs give the same mask bit for bit, whatever the
 /// backend, the thread count or the instruction set of the CPU.

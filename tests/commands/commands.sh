@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
 # its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
-# settle, settle_absent (a build without GMP), error, error_hard, and wrong, which must fail.
+# settle, settle_absent (a build without GMP), cull, error, error_hard, and wrong, which must fail.
 set -u
 program=$1
 work=$(mktemp -d) || exit 1
@@ -195,6 +195,32 @@ check_report()
         fail "the thesis's test hides nothing at scale 0.01"
 }
 
+# Every knob of cull: what it takes and what it refuses.
+cull_group()
+{
+    make_files
+    expect 0 out 'usage: occlude-bench cull' cull --help
+    for preset in fast balanced thorough; do
+        expect 0 out 'frames=60 ' cull city.obs --repeat 1 --method fused --preset $preset
+    done
+    expect 0 out 'frames=60 ' cull city.obs --repeat 1 --method fused --tolerance 0.1 --max-splits 1
+    expect 0 out 'frames=60 ' cull city.obs --repeat 1 --method fused --out none.vis
+    expect 0 out 'frames=60 ' cull city.obs --repeat 1 --method fused --preset balanced --max-splits 48 \
+        --tolerance 0 --min-area 2e-4 --out same.vis
+    cmp -s none.vis same.vis || fail "the stated defaults give another result"
+    expect 0 out 'frames=60 ' cull city.obs --repeat 1 --method fused --tolerance 0.05 --out wide.vis
+    cmp -s none.vis wide.vis && fail "a tolerance hides nothing"
+
+    expect 2 err 'expected fast, balanced or thorough after --preset' cull city.obs --preset slow
+    expect 2 err '--tolerance is 0.1 at most' cull city.obs --tolerance 0.11 --out new.vis
+    for number in '' x -1 nan inf 1e400; do
+        expect 2 err '--tolerance: expected a number that is not negative' cull city.obs --tolerance "$number"
+    done
+    for number in '' x 0 -1 1.5 4294967296; do
+        expect 2 err '--max-splits: expected a number from 1' cull city.obs --max-splits "$number"
+    done
+}
+
 error_group()
 {
     expect 0 out 'usage: occlude-bench error' error --help
@@ -238,6 +264,7 @@ error_hard_group()
 }
 
 case $2 in
+cull) cull_group ;;
 error) error_group ;;
 error_hard) error_hard_group ;;
 truth) truth_group ;;

@@ -57,6 +57,9 @@ static occ_cull_desc read_knobs(fuzz_bytes *from)
     knobs.grain = fuzz_byte(from);
     knobs.max_occluders = fuzz_byte(from);
     knobs.min_area = fuzz_float(from);
+    knobs.max_splits = fuzz_byte(from);
+    knobs.preset = (occ_preset)(fuzz_byte(from) % 4);
+    knobs.tolerance = (float)fuzz_byte(from) * (0.1f / 250.0f);
     return knobs;
 }
 

@@ -102,7 +102,7 @@ occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
 set(own "if (shadow->owner == row) continue;")
 occ_plant(owner_scalar IN src/backend_plain.c REPLACE "${own}" BY "" COMPILE backend_plain.c)
 occ_caught_by(owner_scalar backend_edges host "plain one by one: ${decided_otherwise}")
-occ_plant(owner_lanes IN src/lanes.c REPLACE "hidden &= ~(1u << own)" BY "hidden &= ~0u" COMPILE lanes_plain)
+occ_plant(owner_lanes IN src/lanes.c REPLACE "centers &= ~(1u << own)" BY "centers &= ~0u" COMPILE lanes_plain)
 occ_caught_by(owner_lanes backend_edges host "openmp plain: ${decided_otherwise}")
 occ_plant(owner_node IN src/lanes.c REPLACE "& ~owners_among(siblings, shadow->owner)"
     BY "& ~(0u * owners_among(siblings, shadow->owner))" COMPILE lanes_plain)
@@ -141,16 +141,30 @@ endif()
 # --- what several hide together ------------------------------------------------------------------
 if(TARGET test_fusion)
     set(fused_too_much "world [0-9]+: object [0-9]+ is hidden, but it can be seen")
-    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "v->e + OCC_VERTEX_SLACK + " BY "-v->e - OCC_VERTEX_SLACK - "
+    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "((e) + OCC_VERTEX_SLACK + " BY "(-(e) - OCC_VERTEX_SLACK - "
         COMPILE backend_plain.c)
     occ_caught_by(fusion_without_bounds fusion random "${fused_too_much}")
     occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;"
         BY "(void)by_faces;" COMPILE backend_plain.c)
     occ_caught_by(fusion_in_front fusion random "${fused_too_much}")
-    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner != row) faces" BY "if (shadow->owner != row + 1000000) faces"
+    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner != row && occ" BY "if (shadow->owner != row + 1000000 && occ"
         COMPILE backend_plain.c)
     occ_caught_by(fusion_of_owners fusion random "${fused_too_much}")
     occ_plant(fusion_half_a_piece IN kernels/fusion.h REPLACE "if (cut == OCC_CUT_TWO) fusion->depth++;"
         BY "if (cut == OCC_CUT_TWO && p) fusion->depth++;" COMPILE backend_plain.c)
     occ_caught_by(fusion_half_a_piece fusion random "${fused_too_much}")
+endif()
+
+# --- what a tolerance may hide -------------------------------------------------------------------
+if(TARGET test_tolerance)
+    set(widened "world [0-9]+: object [0-9]+ is hidden, but seen past the widened occluders")
+    occ_plant(tolerance_on_each_side ${in_shadow} REPLACE "double by = 0.5 * tolerance" BY "double by = tolerance")
+    occ_caught_by(tolerance_on_each_side tolerance random "${widened}")
+    occ_plant(tolerance_of_faces ${in_shadow} REPLACE "if (!add_silhouettes(shadow, &s, camera, seen)) return false"
+        BY "if (!add_silhouettes(shadow, &s, camera, seen)) return false;
+    for (int i = 0; i < 9; i++) seen[i / 3].center[i % 3] *= 1.0 - 0.5 * camera->tolerance")
+    occ_caught_by(tolerance_of_faces tolerance random "${widened}")
+    occ_plant(tolerance_of_points ${in_shadow} REPLACE "fmax(1.0 + occ_dot(unit[i], unit[k]), 0.0)"
+        BY "fmax(4.0 + occ_dot(unit[i], unit[k]), 0.0)")
+    occ_caught_by(tolerance_of_points tolerance random "world [0-9]+: object [0-9]+ is hidden, but seen far from all outlines")
 endif()
