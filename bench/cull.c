@@ -33,9 +33,12 @@ static const char cull_usage[] =
     "                     (these three on --backend plain unless said otherwise; not "
     "conservative)\n"
     "  --backend B        openmp (default), plain (one thread of C), opencl\n"
-    "  --threads T        threads of the openmp backend (default: one to a processor)\n"
+    "  --threads T        threads of the openmp backend and of building the scene (default: one "
+    "to\n"
+    "                     a processor; on other backends one builds)\n"
     "  --repeat R         timed culls of each frame (default 5)\n"
     "  --every N          only each N-th frame, for slow methods (default 1)\n"
+    "  --builds N         build the scene N times and print the median (default 1)\n"
     "  --out R.vis        write the verdicts of every frame\n"
     "  --csv F.csv        write a row for each frame\n"
     "  --preset P         fast, balanced (default) or thorough: what stands for knobs not given\n"
@@ -83,6 +86,7 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
         {"--threads", OPTIONS_COUNT, &settings->threads},
         {"--repeat", OPTIONS_COUNT, &settings->repeats},
         {"--every", OPTIONS_COUNT, &settings->every},
+        {"--builds", OPTIONS_COUNT, &settings->builds},
         {"--out", OPTIONS_TEXT, &arguments->out},
         {"--csv", OPTIONS_TEXT, &arguments->csv},
         {"--preset", OPTIONS_TEXT, &arguments->preset},
@@ -110,6 +114,7 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
         return options_complain(argv[0], "expected --rays as 85x48, 4096x4096 at most");
     const char *complaint = measure_complete(settings);
     if (complaint) return options_complain(argv[0], complaint);
+    if (settings->builds > 1000) return options_complain(argv[0], "--builds is 1000 at most");
     if (settings->repeats > 1000) return options_complain(argv[0], "--repeat is 1000 at most");
     if (arguments->out && settings->every != 1)
         return options_complain(argv[0], "--out needs every frame: leave out --every");
@@ -155,8 +160,8 @@ static void base_name(const char *path, char *name, size_t size)
 static void print_memory(const obs_scene *scene, const measure_result *result)
 {
     double objects = scene->object_count ? scene->object_count : 1;
-    printf("build %.1f ms (%u objects, %u occluders, all trees)\n", result->build_ms,
-           scene->object_count, scene->occluder_count);
+    printf("build_ms=%.2f commit_ms=%.2f (%u objects, %u occluders, all trees)\n", result->build_ms,
+           result->commit_ms, scene->object_count, scene->occluder_count);
     printf("memory %llu bytes (scene %llu, view %llu), %.1f bytes per object\n",
            (unsigned long long)result->held_bytes, (unsigned long long)result->scene_bytes,
            (unsigned long long)result->view_bytes, (double)result->held_bytes / objects);

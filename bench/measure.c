@@ -4,6 +4,7 @@
 
 #include "build_info.h"
 #include "counting.h"
+#include "measure_build.h"
 #include "peer.h"
 #include "progress.h"
 #include "timing.h"
@@ -31,8 +32,12 @@ typedef struct measure_bench {
 
 measure_settings measure_defaults(void)
 {
-    return (measure_settings){
-        .method = "single", .repeats = 5, .every = 1, .rays_width = 85, .rays_height = 48};
+    return (measure_settings){.method = "single",
+                              .repeats = 5,
+                              .every = 1,
+                              .builds = 1,
+                              .rays_width = 85,
+                              .rays_height = 48};
 }
 
 static bool find_method(const char *name, occ_method *method)
@@ -137,42 +142,17 @@ static bool is_out_of_memory(void)
 
 // --- building ------------------------------------------------------------------------------------
 
-static bool add_boxes(measure_bench *bench, occ_object *objects, occ_box *boxes, occ_object *owners)
-{
-    const obs_scene *file = bench->file;
-    for (uint32_t i = 0; i < file->occluder_count; i++)
-        boxes[i] = file->occluders[i].box;
-    double start = timing_now();
-    if (!succeeded(occ_scene_add_many(bench->scene, file->objects, file->object_count, objects),
-                   "adding the objects"))
-        return false;
-    for (uint32_t i = 0; i < file->occluder_count; i++)
-        owners[i] = objects[file->occluders[i].owner];
-    if (!succeeded(occ_scene_add_occluders(bench->scene, boxes, owners, file->occluder_count, NULL),
-                   "adding the occluders") ||
-        !succeeded(occ_scene_commit(bench->scene), "committing the scene"))
-        return false;
-    bench->result->build_ms = timing_now() - start;
-    return true;
-}
-
 static bool build_scene(measure_bench *bench)
 {
-    const obs_scene *file = bench->file;
     occ_scene_desc desc = {.allocator = counting_allocator(&bench->heap),
                            .logger = {print_log_line, NULL},
-                           .object_count = file->object_count,
-                           .occluder_count = file->occluder_count};
-    if (!succeeded(occ_scene_create(&desc, &bench->scene), "making the scene")) return false;
-    occ_object *objects = calloc((size_t)file->object_count + 1, sizeof *objects);
-    occ_object *owners = calloc((size_t)file->occluder_count + 1, sizeof *owners);
-    occ_box *boxes = calloc((size_t)file->occluder_count + 1, sizeof *boxes);
-    bool good =
-        objects && owners && boxes ? add_boxes(bench, objects, boxes, owners) : is_out_of_memory();
-    free(objects);
-    free(owners);
-    free(boxes);
-    return good;
+                           .threads = bench->result->threads};
+    measure_build build;
+    occ_result result = measure_building(bench->file, &desc, bench->settings->builds, &build);
+    bench->scene = build.scene;
+    bench->result->build_ms = build.build_ms;
+    bench->result->commit_ms = build.commit_ms;
+    return succeeded(result, build.step);
 }
 
 static bool make_view(measure_bench *bench)

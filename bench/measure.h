@@ -22,6 +22,7 @@ typedef struct measure_settings {
     uint32_t rays_width, rays_height; ///< Of embree-depth's buffer.
     uint32_t repeats;                 ///< Timed culls of each frame.
     uint32_t every;                   ///< Only every so-manieth frame.
+    uint32_t builds;                  ///< How often the scene is built, from nothing each time.
     occ_cull_desc knobs;              ///< Its `method` follows from the name.
 } measure_settings;
 
@@ -38,7 +39,9 @@ typedef struct measure_result {
     uint32_t frame_count, threads;
     measure_frame *frames;
     vis_result verdicts; ///< One row for each entry of `frames`.
-    double build_ms;     ///< Adding and committing all objects and occluders, or a peer's likewise.
+    /// Adding and committing all objects and occluders (or a peer's likewise), and the commit
+    /// alone: medians over the builds.
+    double build_ms, commit_ms;
     uint64_t scene_bytes, view_bytes, device_bytes; ///< As the library or the peer says.
     uint64_t held_bytes;        ///< As the allocator hooks count: scene and view together.
     uint64_t timed_allocations; ///< Seen by the allocator hooks while frames were timed.

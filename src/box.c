@@ -32,6 +32,19 @@ void occ_box_bounds(const occ_box *box, float min[3], float max[3])
     }
 }
 
+float occ_occluder_reach(const occ_box *box)
+{
+    double area = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const float *a = box->axis[k], *b = box->axis[(k + 1) % 3];
+        double x = (double)a[1] * (double)b[2] - (double)a[2] * (double)b[1];
+        double y = (double)a[2] * (double)b[0] - (double)a[0] * (double)b[2];
+        double z = (double)a[0] * (double)b[1] - (double)a[1] * (double)b[0];
+        area += 4.0 * sqrt(x * x + y * y + z * z);
+    }
+    return area < 1e38 ? occ_round_up(area * (1.0 + 0x1p-40)) : 3e38f;
+}
+
 occ_relative_box occ_box_relative(const occ_box *box, const occ_eye *eye)
 {
     occ_relative_box relative;

@@ -57,13 +57,51 @@ void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box)
             occ_boxes_column(boxes, 3 + 3 * k + j)[row] = box->axis[k][j];
 }
 
-void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch)
+// A few columns, picked into the scratch columns and then copied back.
+typedef struct gather_job {
+    occ_boxes *boxes;
+    const uint32_t *source;
+    float *scratch;
+    uint32_t count, parts;
+    uint32_t column, columns; // the first, and how many
+} gather_job;
+
+static void pick_part(void *context, uint32_t part)
 {
-    for (uint32_t c = 0; c < OCC_BOX_COLUMNS; c++) {
-        float *column = occ_boxes_column(boxes, c);
-        for (uint32_t i = 0; i < count; i++)
-            scratch[i] = column[source[i]];
-        if (count) memcpy(column, scratch, (size_t)count * sizeof(float));
+    const gather_job *job = context;
+    uint32_t first = occ_part_first(job->count, job->parts, part);
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t c = 0; c < job->columns; c++) {
+        const float *column = occ_boxes_column(job->boxes, job->column + c);
+        float *picked = job->scratch + (size_t)c * job->count;
+        for (uint32_t i = first; i < end; i++)
+            picked[i] = column[job->source[i]];
+    }
+}
+
+static void put_part(void *context, uint32_t part)
+{
+    const gather_job *job = context;
+    uint32_t first = occ_part_first(job->count, job->parts, part);
+    size_t bytes = (occ_part_first(job->count, job->parts, part + 1) - first) * sizeof(float);
+    for (uint32_t c = 0; c < job->columns; c++) {
+        const float *picked = job->scratch + (size_t)c * job->count;
+        memcpy(occ_boxes_column(job->boxes, job->column + c) + first, picked + first, bytes);
+    }
+}
+
+void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch,
+                      uint32_t scratch_columns, occ_team *team)
+{
+    gather_job job = {.boxes = boxes, .source = source, .count = count};
+    job.scratch = scratch;
+    job.parts = occ_parts_of(count);
+    job.columns = scratch_columns;
+    for (; count && job.column < OCC_BOX_COLUMNS; job.column += job.columns) {
+        uint32_t left = OCC_BOX_COLUMNS - job.column;
+        if (job.columns > left) job.columns = left;
+        occ_do_parts(team, job.parts, pick_part, &job);
+        occ_do_parts(team, job.parts, put_part, &job);
     }
     boxes->count = count;
 }

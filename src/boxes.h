@@ -7,11 +7,12 @@
 #ifndef OCC_BOXES_H
 #define OCC_BOXES_H
 
+#include "blocks.h"
 #include "memory.h"
+#include "team.h"
 
 #include <occlude/scene.h>
 
-#define OCC_BOX_COLUMNS 12u
 #define OCC_BOX_LANES   16u
 #define OCC_BOX_PADDING (OCC_BOX_LANES - 1u) // rows that a vector load from the last row touches
 
@@ -35,7 +36,8 @@ occ_box occ_boxes_get(const occ_boxes *boxes, uint32_t row);
 void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box);
 
 // Row i becomes what row source[i] was, for i < count; `count` becomes the new length. `scratch`
-// has room for `count` floats.
-void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch);
+// has room for `scratch_columns` times `count` floats, 1 to OCC_BOX_COLUMNS.
+void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch,
+                      uint32_t scratch_columns, occ_team *team);
 
 #endif

@@ -6,78 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-#define LEVEL_BITS 5u
-#define ROOT_STEPS 8.0 // the root's origin is a multiple of its size over this
-
-occ_root occ_octree_root(const occ_tree_items *items, const uint32_t *rows, uint32_t count)
-{
-    occ_root root = {{0.0, 0.0, 0.0}, 0.0};
-    if (!count) return root;
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < count; i++) {
-        float min[3], max[3];
-        items->bounds(items->table, rows ? rows[i] : i, min, max);
-        for (int j = 0; j < 3; j++) {
-            double middle = 0.5 * ((double)min[j] + (double)max[j]);
-            low[j] = fmin(low[j], middle);
-            high[j] = fmax(high[j], middle);
-        }
-    }
-    double extent = 0.0, far = 0.0;
-    for (int j = 0; j < 3; j++) {
-        extent = fmax(extent, high[j] - low[j]);
-        far = fmax(far, fmax(fabs(low[j]), fabs(high[j])));
-    }
-    // Rounding the origin down can cost one step. Far from zero the cube is kept wide enough for
-    // its cells to be told apart in double.
-    int exponent;
-    double least = fmax(extent * (ROOT_STEPS / (ROOT_STEPS - 1.0)), fmax(far * 0x1p-30, 0x1p-100));
-    (void)frexp(least, &exponent);
-    root.size = ldexp(1.0, exponent);
-    double step = root.size / ROOT_STEPS;
-    for (int j = 0; j < 3; j++)
-        root.origin[j] = floor(low[j] / step) * step;
-    return root;
-}
-
-// Spreads the low 19 bits so that two zeros follow each.
-static uint64_t spread(uint64_t x)
-{
-    x = (x | x << 32) & 0x001f00000000ffffu;
-    x = (x | x << 16) & 0x001f0000ff0000ffu;
-    x = (x | x << 8) & 0x100f00f00f00f00fu;
-    x = (x | x << 4) & 0x10c30c30c30c30c3u;
-    return (x | x << 2) & 0x1249249249249249u;
-}
-
-uint64_t occ_octree_key(const occ_root *root, const float min[3], const float max[3])
-{
-    const double cells = (double)(1u << OCC_TREE_BITS);
-    double width = 0.0;
-    uint64_t code = 0;
-    for (int j = 0; j < 3; j++) {
-        double low = (double)min[j], high = (double)max[j];
-        double place = (0.5 * (low + high) - root->origin[j]) * (cells / root->size);
-        place = place < 0.0 ? 0.0 : place > cells - 1.0 ? cells - 1.0 : place;
-        code |= spread((uint64_t)place) << j;
-        width = high - low > width ? high - low : width;
-    }
-    uint64_t level = OCC_TREE_BITS;
-    double cell = root->size / cells;
-    while (level && cell < width) {
-        cell *= 2.0;
-        level--;
-    }
-    uint64_t kept = ~(uint64_t)0 << (3 * (OCC_TREE_BITS - level));
-    return (code & kept) << LEVEL_BITS | level;
-}
-
 // The level of the smallest cell that holds all items of a sorted range and is not below any of
 // their own cells. The first key decides: it has the least level among those that could lie above.
 static uint32_t common_level(uint64_t first, uint64_t last)
 {
-    uint32_t own = (uint32_t)(first & ((1u << LEVEL_BITS) - 1u));
-    uint64_t differ = (first ^ last) >> LEVEL_BITS;
+    uint32_t own = (uint32_t)(first & ((1u << OCC_LEVEL_BITS) - 1u));
+    uint64_t differ = (first ^ last) >> OCC_LEVEL_BITS;
     uint32_t level = OCC_TREE_BITS;
     while (differ) {
         differ >>= 3;
@@ -117,7 +51,7 @@ static bool split(occ_hooks *hooks, occ_array *nodes, const occ_tree_entry *entr
     occ_node node = ((occ_node *)nodes->data)[index];
     uint32_t end = node.first + node.count;
     if (node.level == OCC_TREE_BITS) return true;
-    uint32_t shift = 3 * (OCC_TREE_BITS - node.level - 1u) + LEVEL_BITS;
+    uint32_t shift = 3 * (OCC_TREE_BITS - node.level - 1u) + OCC_LEVEL_BITS;
     uint64_t base = entries[node.first].key >> (shift + 3) << (shift + 3);
     uint32_t begin = lower_bound(entries, node.first, end, base | (node.level + 1u));
     node.child = nodes->count;
@@ -149,68 +83,137 @@ static occ_result build_nodes(occ_hooks *hooks, occ_octree *tree, const occ_tree
     return OCC_SUCCESS;
 }
 
-occ_result occ_octree_build(occ_hooks *hooks, occ_octree *tree, const occ_tree_items *items,
-                            const occ_root *root, uint32_t *rows, uint32_t count)
+// --- sorting -------------------------------------------------------------------------------------
+
+typedef struct entries_job {
+    const uint64_t *keys;
+    const uint32_t *rows;
+    uint32_t *sorted; // rows too
+    occ_tree_entry *entries;
+    uint32_t count, parts;
+} entries_job;
+
+static void fill_entries(void *context, uint32_t part)
 {
-    size_t bytes = (size_t)count * sizeof(occ_tree_entry);
-    occ_tree_entry *entries = occ_alloc(hooks, bytes), *spare = occ_alloc(hooks, bytes);
+    const entries_job *job = context;
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
+        job->entries[i] = (occ_tree_entry){job->keys[job->rows[i]], job->rows[i]};
+}
+
+static void list_sorted(void *context, uint32_t part)
+{
+    const entries_job *job = context;
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
+        job->sorted[i] = job->entries[i].row;
+}
+
+// Sorts the rows, and leaves their entries.
+static void sort_items(const occ_tree_items *items, uint32_t table_count, const occ_root *root,
+                       uint32_t *rows, uint32_t count, occ_tree_entry *entries, occ_team *team)
+{
+    void *spare = entries + count; // first for the keys, then for sorting
+    occ_octree_keys(items, root, table_count, spare, team);
+    entries_job job = {.keys = spare, .rows = rows, .count = count, .parts = occ_parts_of(count)};
+    job.entries = entries;
+    job.sorted = rows;
+    occ_do_parts(team, job.parts, fill_entries, &job);
+    occ_tree_sort(entries, spare, count, team);
+    occ_do_parts(team, job.parts, list_sorted, &job);
+}
+
+size_t occ_octree_room(uint32_t table_count, uint32_t count, const occ_team *team)
+{
+    size_t keys = (size_t)table_count * sizeof(uint64_t);
+    size_t spare = occ_tree_sort_room(count, team);
+    return (size_t)count * sizeof(occ_tree_entry) + (keys > spare ? keys : spare);
+}
+
+occ_result occ_octree_build(occ_hooks *hooks, occ_octree *tree, const occ_tree_items *items,
+                            uint32_t table_count, const occ_root *root, uint32_t *rows,
+                            uint32_t count, void *room, occ_team *team)
+{
+    occ_tree_entry *entries = room;
+    if (count) sort_items(items, table_count, root, rows, count, entries, team);
     occ_octree built = {.nodes = OCC_ARRAY(occ_node), .root = *root};
     built.leaf_items = tree->leaf_items;
-    occ_result result = count && (!entries || !spare) ? OCC_ERROR_OUT_OF_MEMORY : OCC_SUCCESS;
-    if (!result) {
-        for (uint32_t i = 0; i < count; i++) {
-            float min[3], max[3];
-            items->bounds(items->table, rows[i], min, max);
-            entries[i] = (occ_tree_entry){occ_octree_key(root, min, max), rows[i]};
-        }
-        occ_tree_sort(entries, spare, count);
-        for (uint32_t i = 0; i < count; i++)
-            rows[i] = entries[i].row;
-        result = build_nodes(hooks, &built, entries, count);
-    }
-    occ_free(hooks, entries, bytes);
-    occ_free(hooks, spare, bytes);
+    occ_result result = build_nodes(hooks, &built, entries, count);
     if (result) {
         occ_octree_free(hooks, &built);
         return result;
     }
     occ_array_trim(hooks, &built.nodes);
-    occ_octree_refit(&built, items, rows);
     occ_octree_free(hooks, tree);
     *tree = built;
     return OCC_SUCCESS;
 }
 
-static void widen(float min[3], float max[3], const float low[3], const float high[3])
+// --- bounds --------------------------------------------------------------------------------------
+
+static void widen(occ_node *node, const float low[3], const float high[3])
 {
     for (int j = 0; j < 3; j++) {
-        min[j] = low[j] < min[j] ? low[j] : min[j];
-        max[j] = high[j] > max[j] ? high[j] : max[j];
+        node->min[j] = low[j] < node->min[j] ? low[j] : node->min[j];
+        node->max[j] = high[j] > node->max[j] ? high[j] : node->max[j];
     }
 }
 
-static void tight_bounds(const occ_octree *tree, const occ_node *node, const occ_tree_items *items,
-                         const uint32_t *rows, float min[3], float max[3])
+typedef struct refit_job {
+    const occ_octree *tree;
+    const occ_tree_items *items;
+    const uint32_t *rows, *changed;
+    uint32_t parts;
+} refit_job;
+
+static bool has_changed(const uint32_t *changed, const occ_node *node)
 {
-    for (int j = 0; j < 3; j++) {
-        min[j] = INFINITY;
-        max[j] = -INFINITY;
-    }
-    for (uint32_t i = node->first, end = i + occ_node_own(tree, node); i < end; i++) {
-        float low[3], high[3];
-        items->bounds(items->table, rows ? rows[i] : i, low, high);
-        widen(min, max, low, high);
-    }
-    const occ_node *child = occ_octree_nodes(tree) + node->child;
-    for (uint32_t c = 0; c < node->children; c++)
-        widen(min, max, child[c].min, child[c].max);
+    uint32_t last = (node->first + node->count - 1) / OCC_CHANGE_ROWS;
+    for (uint32_t bit = node->first / OCC_CHANGE_ROWS; bit <= last; bit++)
+        if (changed[bit / 32] >> bit % 32 & 1u) return true;
+    return false;
 }
 
-void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows)
+// The bounds of a node's own items.
+static void bound_own(const refit_job *job, occ_node *node)
+{
+    for (int j = 0; j < 3; j++) {
+        node->min[j] = INFINITY;
+        node->max[j] = -INFINITY;
+    }
+    occ_block block;
+    uint32_t end = node->first + occ_node_own(job->tree, node);
+    for (uint32_t i = node->first; i < end; i += OCC_BLOCK) {
+        uint32_t count = end - i < OCC_BLOCK ? end - i : OCC_BLOCK;
+        const uint32_t *rows = job->rows ? job->rows + i : NULL;
+        job->items->bounds(job->items->table, rows, i, count, &block);
+        for (uint32_t k = 0; k < count; k++) {
+            const float low[3] = {block.min[0][k], block.min[1][k], block.min[2][k]};
+            const float high[3] = {block.max[0][k], block.max[1][k], block.max[2][k]};
+            widen(node, low, high);
+        }
+    }
+}
+
+static void bound_part(void *context, uint32_t part)
+{
+    const refit_job *job = context;
+    occ_node *nodes = job->tree->nodes.data;
+    uint32_t count = job->tree->nodes.count, end = occ_part_first(count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(count, job->parts, part); i < end; i++)
+        if (!job->changed || has_changed(job->changed, &nodes[i])) bound_own(job, &nodes[i]);
+}
+
+void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
+                      const uint32_t *changed, occ_team *team)
 {
     occ_node *nodes = tree->nodes.data;
+    if (!tree->nodes.count) return;
+    refit_job job = {tree, items, rows, changed, occ_parts_of(nodes[0].count)};
+    occ_do_parts(team, job.parts, bound_part, &job);
     for (uint32_t i = tree->nodes.count; i-- > 0;) // children lie after their parent
-        tight_bounds(tree, &nodes[i], items, rows, nodes[i].min, nodes[i].max);
+        for (uint32_t c = 0; c < nodes[i].children; c++)
+            widen(&nodes[i], nodes[nodes[i].child + c].min, nodes[nodes[i].child + c].max);
 }
 
 void occ_octree_free(occ_hooks *hooks, occ_octree *tree)

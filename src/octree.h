@@ -17,10 +17,7 @@
 #ifndef OCC_OCTREE_H
 #define OCC_OCTREE_H
 
-#include "memory.h"
-
-#define OCC_TREE_BITS  19u // levels of cells below the root
-#define OCC_TREE_DEPTH (OCC_TREE_BITS + 1u)
+#include "tree_keys.h"
 
 typedef struct occ_node {
     float min[3]; // tight bounds of all items of the subtree
@@ -35,18 +32,6 @@ typedef struct occ_node {
 
 _Static_assert(sizeof(occ_node) == 40, "nodes are counted in the memory per object");
 
-// The cube that the cells halve. Quantised, so that small edits seldom change it.
-typedef struct occ_root {
-    double origin[3];
-    double size; // a power of two; 0 without items
-} occ_root;
-
-static inline bool occ_root_equals(const occ_root *a, const occ_root *b)
-{
-    return a->size == b->size && a->origin[0] == b->origin[0] && a->origin[1] == b->origin[1] &&
-           a->origin[2] == b->origin[2];
-}
-
 typedef struct occ_octree {
     occ_array nodes; // of occ_node
     occ_root root;
@@ -55,12 +40,6 @@ typedef struct occ_octree {
     uint32_t levels;
     uint32_t leaf_items;
 } occ_octree;
-
-// The items: `bounds` writes the bounds of item `row` of `table`.
-typedef struct occ_tree_items {
-    const void *table;
-    void (*bounds)(const void *table, uint32_t row, float min[3], float max[3]);
-} occ_tree_items;
 
 static inline const occ_node *occ_octree_nodes(const occ_octree *tree)
 {
@@ -73,19 +52,22 @@ static inline uint32_t occ_node_own(const occ_octree *tree, const occ_node *node
     return node->children ? occ_octree_nodes(tree)[node->child].first - node->first : node->count;
 }
 
-// The root cube of `count` items, listed as rows. Here and below, `rows` NULL means 0, 1, 2, ...
-occ_root occ_octree_root(const occ_tree_items *items, const uint32_t *rows, uint32_t count);
+// Bytes of scratch memory that building a tree over `count` of a table's items takes.
+size_t occ_octree_room(uint32_t table_count, uint32_t count, const occ_team *team);
 
-// An item's key under a root.
-uint64_t occ_octree_key(const occ_root *root, const float min[3], const float max[3]);
-
-// Sorts `rows` into the tree's order and builds the nodes. On failure the tree is as it was and
-// `rows` is some permutation of what it was.
+// Sorts `rows`, which list items of a table of `table_count`, into the tree's order and builds the
+// nodes, all but their bounds. On failure the tree is as it was and `rows` is some permutation of
+// what it was. `room` is aligned for anything.
 occ_result occ_octree_build(occ_hooks *hooks, occ_octree *tree, const occ_tree_items *items,
-                            const occ_root *root, uint32_t *rows, uint32_t count);
+                            uint32_t table_count, const occ_root *root, uint32_t *rows,
+                            uint32_t count, void *room, occ_team *team);
 
-// Recomputes every node's bounds. rows[i] is the item at place i of the order.
-void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows);
+#define OCC_CHANGE_ROWS 256u // places in the order to a bit of `changed`
+
+// Recomputes the bounds of all nodes, or of those that hold an item at a place of which `changed`
+// has the bit. rows[i] is the item at place i of the order; NULL means i.
+void occ_octree_refit(occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
+                      const uint32_t *changed, occ_team *team);
 
 void occ_octree_free(occ_hooks *hooks, occ_octree *tree);
 

@@ -2,6 +2,18 @@
 // The validation tier of the octree: every invariant, recomputed from the items.
 #include "octree.h"
 
+// The bounds of the item at place i of the order.
+static void bounds_at(const occ_tree_items *items, const uint32_t *rows, uint32_t i, float min[3],
+                      float max[3])
+{
+    occ_block block;
+    items->bounds(items->table, rows ? rows + i : NULL, i, 1, &block);
+    for (int j = 0; j < 3; j++) {
+        min[j] = block.min[j][0];
+        max[j] = block.max[j][0];
+    }
+}
+
 static const char *check_ranges(const occ_octree *tree, const occ_node *node)
 {
     const occ_node *nodes = occ_octree_nodes(tree);
@@ -30,7 +42,7 @@ static const char *check_bounds(const occ_node *node, const occ_tree_items *item
     }
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         float min[3], max[3];
-        items->bounds(items->table, rows ? rows[i] : i, min, max);
+        bounds_at(items, rows, i, min, max);
         for (int j = 0; j < 3; j++) {
             tight.min[j] = min[j] < tight.min[j] ? min[j] : tight.min[j];
             tight.max[j] = max[j] > tight.max[j] ? max[j] : tight.max[j];
@@ -51,7 +63,7 @@ static uint64_t key_at(const occ_octree *tree, const occ_tree_items *items, cons
                        uint32_t i)
 {
     float min[3], max[3];
-    items->bounds(items->table, rows ? rows[i] : i, min, max);
+    bounds_at(items, rows, i, min, max);
     return occ_octree_key(&tree->root, min, max);
 }
 
@@ -103,7 +115,7 @@ static const char *check_ties(const occ_octree *tree, const occ_tree_items *item
 static bool is_root_of(const occ_octree *tree, const occ_tree_items *items, const uint32_t *rows,
                        uint32_t count)
 {
-    occ_root root = occ_octree_root(items, rows, count);
+    occ_root root = occ_octree_root(items, rows, count, NULL);
     return occ_root_equals(&root, &tree->root);
 }
 

@@ -5,6 +5,7 @@
 
 #include "box.h"
 #include "log.h"
+#include "team.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -15,25 +16,26 @@
 
 static atomic_uint_least64_t scenes_made;
 
-static void bounds_of_row(const void *table, uint32_t row, float min[3], float max[3])
+static void bounds_of_objects(const void *table, const uint32_t *rows, uint32_t first,
+                              uint32_t count, occ_block *block)
 {
-    occ_box box = occ_boxes_get(table, row);
-    occ_box_bounds(&box, min, max);
+    occ_bounds_of_rows(table, rows, first, count, block);
 }
 
-static void bounds_of_occluder(const void *table, uint32_t slot, float min[3], float max[3])
+static void bounds_of_occluders(const void *table, const uint32_t *rows, uint32_t first,
+                                uint32_t count, occ_block *block)
 {
-    occ_box_bounds((const occ_box *)table + slot, min, max);
+    occ_bounds_of_array(table, rows, first, count, block);
 }
 
 occ_tree_items occ_scene_object_items(const occ_scene *scene)
 {
-    return (occ_tree_items){&scene->boxes, bounds_of_row};
+    return (occ_tree_items){&scene->boxes, bounds_of_objects};
 }
 
 occ_tree_items occ_scene_occluder_items(const occ_scene *scene)
 {
-    return (occ_tree_items){scene->occluder_boxes.data, bounds_of_occluder};
+    return (occ_tree_items){scene->occluder_boxes.data, bounds_of_occluders};
 }
 
 // Room for `more` objects. Grows by an eighth at least, so that adding one by one stays linear.
@@ -69,10 +71,15 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
         return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "leaf_objects is %u, at most %u",
                         desc->leaf_objects, MOST_LEAF_OBJECTS);
     }
+    if (desc->threads > OCC_MOST_THREADS) {
+        return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "%u threads, at most %u", desc->threads,
+                        OCC_MOST_THREADS);
+    }
     occ_scene *made = occ_alloc(&hooks, sizeof *made);
     if (!made) return occ_fail(&hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for a scene");
     *made = (occ_scene){.hooks = hooks,
                         .id = atomic_fetch_add(&scenes_made, 1) + 1,
+                        .threads = occ_threads_offered(desc->threads),
                         .objects = OCC_SLOTS,
                         .slot_of = OCC_ARRAY(uint32_t),
                         .occluders = OCC_SLOTS,

@@ -5,8 +5,8 @@
 //                 ^                 |
 //                 +----slot_of------+
 //
-// Occluders are few and looked up one by one: their boxes stay at their slots, and only
-// `occluder_order` is sorted. An occluder's slot carries its owner's slot.
+// Occluders are looked up one by one: their boxes stay at their slots, and only `occluder_order` is
+// sorted. An occluder's slot carries its owner's slot.
 #ifndef OCC_SCENE_DATA_H
 #define OCC_SCENE_DATA_H
 
@@ -14,17 +14,16 @@
 #include "octree.h"
 #include "slots.h"
 
-// The occluders that objects of a subtree own: [first, first + count) of the order.
+// What the objects of a subtree own: occluders [first, first + count) of the order.
 typedef struct occ_attached {
     uint32_t first, count;
     float reach; // the largest occ_occluder_reach() among them
 } occ_attached;
 
-#define OCC_CHANGE_ROWS 256u // rows per bit of `changed`
-
 struct occ_scene {
     occ_hooks hooks;
     uint64_t id;       // no other scene of this process has it
+    uint32_t threads;  // of a commit
     uint64_t revision; // counts the commits of the objects: `changed` leads from the one before
 
     occ_slots objects;
@@ -34,15 +33,16 @@ struct occ_scene {
 
     occ_slots occluders;
     occ_array occluder_boxes; // occ_box per slot
-    occ_array occluder_order; // uint32_t: slots; the attached ones by their owners' rows, then the
-                              // free ones in the order of the tree
+    // uint32_t: slots. First the attached occluders, which an object owns, by their owners' rows;
+    // then the free ones, in the order of their tree.
+    occ_array occluder_order;
     uint32_t attached_count;
-    occ_octree occluder_tree; // of the free ones
     occ_array attached;       // occ_attached per node of the objects' tree
-    occ_array
-        reach; // float per node of the occluders' tree: the largest occ_occluder_reach() below it
+    occ_octree occluder_tree; // of the free ones
+    occ_array reach;          // float per node of it: the largest occ_occluder_reach() below
 
-    occ_array changed;      // uint32_t words: which rows the latest commit changed
+    occ_array
+        changed; // uint32_t words: which rows (OCC_CHANGE_ROWS to a bit) the latest commit changed
     bool all_changed;       // or all of them
     bool objects_moved;     // bounds are out of date
     bool objects_reordered; // rows are out of date too
@@ -67,8 +67,8 @@ static inline const occ_box *occ_scene_occluder_boxes(const occ_scene *scene)
     return scene->occluder_boxes.data;
 }
 
-// An upper bound on the area that a box shows to any direction.
-float occ_occluder_reach(const occ_box *box);
+// The occluders' part of a commit, once the objects are in their rows.
+occ_result occ_commit_occluders(occ_scene *scene, occ_team *team);
 
 // How the octrees see the two kinds of items.
 occ_tree_items occ_scene_object_items(const occ_scene *scene);

@@ -3,8 +3,7 @@
 #define OCC_VIEW_DATA_H
 
 #include "frame.h"
-
-#define OCC_MOST_THREADS 1024u
+#include "team.h"
 
 struct occ_view {
     occ_hooks hooks;

@@ -131,33 +131,45 @@ START_TEST(more_boxes_than_an_index_can_name_are_refused)
 }
 END_TEST
 
+enum { GATHERED = 20000 }; // more than one part
+
+static uint32_t source[GATHERED], scratch_columns;
+
+static void gather(occ_team *team, void *scratch)
+{
+    occ_boxes_gather(&boxes, source, GATHERED, scratch, scratch_columns, team);
+}
+
 START_TEST(gathering_puts_rows_into_the_order_asked_for)
 {
-    uint32_t source[1000];
-    float scratch[1000];
-    fill(1000);
+    static const uint32_t columns[] = {1, 5, 8, OCC_BOX_COLUMNS};
+    scratch_columns = columns[_i];
+    float *scratch = malloc(sizeof(float) * GATHERED * scratch_columns);
+    ck_assert_ptr_nonnull(scratch);
+    fill(GATHERED);
     kit_random random = {7};
-    for (uint32_t i = 0; i < 1000; i++) { // a shuffle
+    for (uint32_t i = 0; i < GATHERED; i++) { // a shuffle
         uint32_t j = kit_below(&random, i + 1);
         source[i] = source[j];
         source[j] = i;
     }
-    occ_boxes_gather(&boxes, source, 1000, scratch);
-    for (uint32_t i = 0; i < 1000; i++)
+    occ_with_team((uint32_t)_i + 1, gather, scratch);
+    for (uint32_t i = 0; i < GATHERED; i++)
         check_row(i, source[i]);
+    free(scratch);
 }
 END_TEST
 
 START_TEST(gathering_leaves_out_what_is_not_listed)
 {
-    static const uint32_t source[] = {8, 3, 4};
+    static const uint32_t few[] = {8, 3, 4};
     float scratch[3];
     fill(10);
-    occ_boxes_gather(&boxes, source, 3, scratch);
+    occ_boxes_gather(&boxes, few, 3, scratch, 1, NULL);
     ck_assert_uint_eq(boxes.count, 3);
     for (uint32_t i = 0; i < 3; i++)
-        check_row(i, source[i]);
-    occ_boxes_gather(&boxes, NULL, 0, NULL);
+        check_row(i, few[i]);
+    occ_boxes_gather(&boxes, NULL, 0, NULL, 1, NULL);
     ck_assert_uint_eq(boxes.count, 0);
 }
 END_TEST
@@ -174,7 +186,7 @@ int main(void)
     tcase_add_test(table, growing_keeps_every_box);
     tcase_add_test(table, failing_to_grow_changes_nothing);
     tcase_add_test(table, more_boxes_than_an_index_can_name_are_refused);
-    tcase_add_test(table, gathering_puts_rows_into_the_order_asked_for);
+    tcase_add_loop_test(table, gathering_puts_rows_into_the_order_asked_for, 0, 4);
     tcase_add_test(table, gathering_leaves_out_what_is_not_listed);
     suite_add_tcase(suite, table);
     return test_run_suite(suite);

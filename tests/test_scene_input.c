@@ -298,18 +298,23 @@ START_TEST(scene_that_cannot_be_made_is_null)
     CHECK_INVALID(occ_scene_create(&desc, &made));
     ck_assert_ptr_null(made);
     ck_assert(kit_logged(&record, "leaf_objects is 1025"));
+    desc = (occ_scene_desc){.logger = desc.logger, .threads = 1025};
+    made = scene;
+    CHECK_INVALID(occ_scene_create(&desc, &made));
+    ck_assert_ptr_null(made);
+    ck_assert(kit_logged(&record, "1025 threads, at most 1024"));
     desc = (occ_scene_desc){.logger = desc.logger, .allocator = kit_allocator(&heap)};
     desc.allocator.free = NULL;
     made = scene;
     CHECK_INVALID(occ_scene_create(&desc, &made));
     ck_assert_ptr_null(made);
-    ck_assert_uint_eq(record.errors, 2);
+    ck_assert_uint_eq(record.errors, 3);
     desc = (occ_scene_desc){.logger = desc.logger, .object_count = UINT32_MAX};
     ck_assert_int_eq(occ_scene_create(&desc, &made), OCC_ERROR_LIMIT);
     desc = (occ_scene_desc){.logger = desc.logger, .occluder_count = UINT32_MAX};
     ck_assert_int_eq(occ_scene_create(&desc, &made), OCC_ERROR_LIMIT);
     ck_assert_ptr_null(made);
-    ck_assert_uint_eq(record.errors, 4);
+    ck_assert_uint_eq(record.errors, 5);
 }
 END_TEST
 

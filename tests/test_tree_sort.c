@@ -57,10 +57,23 @@ static uint64_t keys_of_two_digits(kit_random *random, uint32_t i, uint32_t coun
     return kit_next(random) & 0x7ff000003ff800u;
 }
 
-static const key_maker makers[] = {any_key,           one_key,         few_keys,
-                                   ascending_keys,    descending_keys, keys_of_one_digit,
-                                   keys_of_two_digits};
-static const uint32_t counts[] = {0, 1, 2, 3, 63, 64, 65, 1000, 50000};
+// Nearly all in one bucket of those that many entries are split into, and far apart in it.
+static uint64_t crowded_keys(kit_random *random, uint32_t i, uint32_t count)
+{
+    return i % 1000 ? kit_next(random) >> 20 : any_key(random, i, count);
+}
+
+// As a flat world has them: every third bit is the same in all.
+static uint64_t keys_with_gaps(kit_random *random, uint32_t i, uint32_t count)
+{
+    return any_key(random, i, count) & 0x36db6db6db6db6d3u;
+}
+
+static const key_maker makers[] = {
+    any_key,         one_key,           few_keys,           ascending_keys,
+    descending_keys, keys_of_one_digit, keys_of_two_digits, crowded_keys,
+    keys_with_gaps};
+static const uint32_t counts[] = {0, 1, 2, 3, 63, 64, 65, 1000, 16383, 16384, 20000, 50000};
 
 enum { MAKERS = (int)(sizeof makers / sizeof *makers) };
 
@@ -72,31 +85,48 @@ static int compare(const void *left, const void *right)
     return a->row < b->row ? -1 : a->row > b->row;
 }
 
-static void sort_and_compare(key_maker maker, uint32_t count)
+typedef struct sorting {
+    occ_tree_entry *entries;
+    void *room;
+    uint32_t count;
+} sorting;
+
+static void sort_all(occ_team *team, void *context)
+{
+    sorting *s = context;
+    size_t bytes = occ_tree_sort_room(s->count, team);
+    s->room = malloc(bytes + 1);
+    KIT_CHECK(s->room, "out of memory");
+    occ_tree_sort(s->entries, s->room, s->count, team);
+}
+
+static void sort_and_compare(key_maker maker, uint32_t count, uint32_t threads)
 {
     size_t bytes = (count + 1) * sizeof(occ_tree_entry);
-    occ_tree_entry *entries = calloc(1, bytes), *spare = calloc(1, bytes);
-    occ_tree_entry *expected = calloc(1, bytes);
-    ck_assert(entries && spare && expected);
+    occ_tree_entry *entries = calloc(1, bytes), *expected = calloc(1, bytes);
+    ck_assert(entries && expected);
     kit_random random = {count};
     for (uint32_t i = 0; i < count; i++)
         expected[i] = entries[i] = (occ_tree_entry){maker(&random, i, count), i};
     qsort(expected, count, sizeof *expected, compare);
-    occ_tree_sort(entries, spare, count);
+    sorting s = {entries, NULL, count};
+    occ_with_team(threads, sort_all, &s);
     for (uint32_t i = 0; i < count; i++) {
         KIT_CHECK(entries[i].key == expected[i].key, "entry %u of %u is out of order", i, count);
         KIT_CHECK(entries[i].row == expected[i].row, "%u of %u equal keys changed places", i,
                   count);
     }
+    free(s.room);
     free(entries);
-    free(spare);
     free(expected);
 }
 
 START_TEST(entries_come_out_by_key_and_equal_ones_as_they_came)
 {
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
-        sort_and_compare(makers[_i], counts[c]);
+        for (uint32_t threads = 1; threads <= 3; threads++)
+            sort_and_compare(makers[_i], counts[c], threads);
+    sort_and_compare(makers[_i], 100000, 8);
 }
 END_TEST
 
@@ -107,10 +137,12 @@ START_TEST(entries_beyond_the_count_stay_as_they_are)
         kit_random random = {count};
         for (uint32_t i = 0; i < 256; i++)
             entries[i] = spare[i] = (occ_tree_entry){any_key(&random, i, count), i};
-        occ_tree_entry last[2] = {entries[count], spare[count]};
-        occ_tree_sort(entries, spare, count);
+        size_t room = occ_tree_sort_room(count, NULL) / sizeof *spare;
+        ck_assert_uint_le(room, count);
+        occ_tree_entry last[2] = {entries[count], spare[room]};
+        occ_tree_sort(entries, spare, count, NULL);
         ck_assert(entries[count].key == last[0].key && entries[count].row == last[0].row);
-        ck_assert(spare[count].key == last[1].key && spare[count].row == last[1].row);
+        ck_assert(spare[room].key == last[1].key && spare[room].row == last[1].row);
     }
 }
 END_TEST

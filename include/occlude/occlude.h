@@ -28,8 +28,9 @@
 ///
 /// **Threads.** A scene may be read by any number of threads while none edits it: occ_cull() takes
 /// it const. Edits and occ_scene_commit() need it alone. A view belongs to one thread at a time.
-/// There is no state outside scenes and views. With GNU OpenMP, do not fork() after the first
-/// parallel cull.
+/// A commit and a cull may use threads of their own, which are gone from the scene when they
+/// return. There is no state outside scenes and views. With GNU OpenMP, do not fork() after the
+/// first parallel commit or cull.
 ///
 /// **Errors** are occ_result values; a log line gives the reason if a logger was set. Bad input
 /// never aborts and leaves the scene untouched.

@@ -60,6 +60,8 @@ typedef struct occ_scene_desc {
     uint32_t object_count;   ///< Objects to reserve room for. Default 0: grow as they come.
     uint32_t occluder_count; ///< Occluders to reserve room for. Default 0: grow as they come.
     uint32_t leaf_objects;   ///< Most objects in an octree leaf, 1 to 1024. Default 64.
+    uint32_t threads;        ///< OpenMP threads of a commit, 1024 at most. Default 0: what OpenMP
+                             ///< offers. A small scene is committed on one all the same.
 } occ_scene_desc;
 
 /// Objects, occluders, and an octree over each. See the thread rules in occlude.h.
@@ -111,8 +113,9 @@ OCC_API OCC_NODISCARD occ_result occ_scene_move_occluder(occ_scene *scene, occ_o
 OCC_API OCC_NODISCARD occ_result occ_scene_remove_occluder(occ_scene *scene, occ_occluder occluder);
 
 /// Brings the octrees up to date with all edits since the last commit. The result is a function of
-/// the scene's content alone: a scene edited into a state equals one built in it. On an error the
-/// edits are kept, and another commit may be tried.
+/// the scene's content alone: a scene edited into a state equals one built in it, whatever the
+/// number of threads. The allocator and the logger are called in the caller's thread. On an error
+/// the edits are kept, and another commit may be tried.
 OCC_API OCC_NODISCARD occ_result occ_scene_commit(occ_scene *scene);
 
 /// Whether the handle names an object that is in this scene now.

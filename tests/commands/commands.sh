@@ -56,6 +56,9 @@ make_files()
 truth_group()
 {
     make_files
+    expect 0 out 'build_ms=' cull city.obs --repeat 1 --every 30 --builds 3 --threads 2
+    expect 0 out ' commit_ms=' cull city.obs --repeat 1 --every 30 --backend plain
+    expect 2 err '--builds is 1000 at most' cull city.obs --builds 1001
     expect 0 out 'usage: occlude-bench truth' truth --help
     expect 0 out 'usage: occlude-bench truth' truth city.obs --frames bad -h
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure_build.h"
+
+#include "timing.h"
+
+#include <stdlib.h>
+
+// A build's input, and how long each took.
+typedef struct build_arrays {
+    occ_object *objects, *owners;
+    occ_box *boxes;
+    double *whole, *commit;
+} build_arrays;
+
+static occ_result fill_scene(const obs_scene *file, const build_arrays *arrays,
+                             measure_build *build)
+{
+    build->step = "adding the objects";
+    occ_result result =
+        occ_scene_add_many(build->scene, file->objects, file->object_count, arrays->objects);
+    if (result) return result;
+    for (uint32_t i = 0; i < file->occluder_count; i++)
+        arrays->owners[i] = arrays->objects[file->occluders[i].owner];
+    build->step = "adding the occluders";
+    return occ_scene_add_occluders(build->scene, arrays->boxes, arrays->owners,
+                                   file->occluder_count, NULL);
+}
+
+// Builds a fresh scene, the i-th.
+static occ_result build_once(const obs_scene *file, const occ_scene_desc *desc,
+                             const build_arrays *arrays, measure_build *build, uint32_t i)
+{
+    occ_scene_destroy(build->scene);
+    build->step = "making the scene";
+    occ_result result = occ_scene_create(desc, &build->scene);
+    if (result) return result;
+    double start = timing_now();
+    result = fill_scene(file, arrays, build);
+    if (result) return result;
+    double added = timing_now();
+    build->step = "committing the scene";
+    result = occ_scene_commit(build->scene);
+    arrays->commit[i] = timing_now() - added;
+    arrays->whole[i] = timing_now() - start;
+    return result;
+}
+
+static occ_result build_often(const obs_scene *file, const occ_scene_desc *desc, uint32_t builds,
+                              const build_arrays *arrays, measure_build *build)
+{
+    for (uint32_t i = 0; i < file->occluder_count; i++)
+        arrays->boxes[i] = file->occluders[i].box;
+    occ_scene_desc reserving = *desc;
+    reserving.object_count = file->object_count;
+    reserving.occluder_count = file->occluder_count;
+    for (uint32_t i = 0; i < builds; i++) {
+        occ_result result = build_once(file, &reserving, arrays, build, i);
+        if (result) return result;
+    }
+    build->build_ms = timing_median(arrays->whole, builds);
+    build->commit_ms = timing_median(arrays->commit, builds);
+    return OCC_SUCCESS;
+}
+
+occ_result measure_building(const obs_scene *file, const occ_scene_desc *desc, uint32_t builds,
+                            measure_build *build)
+{
+    size_t objects = (size_t)file->object_count + 1, occluders = (size_t)file->occluder_count + 1;
+    build_arrays arrays = {calloc(objects, sizeof(occ_object)),
+                           calloc(occluders, sizeof(occ_object)),
+                           calloc(occluders, sizeof(occ_box)), calloc(builds, sizeof(double)),
+                           calloc(builds, sizeof(double))};
+    *build = (measure_build){.step = "building the scene"};
+    occ_result result = OCC_ERROR_OUT_OF_MEMORY;
+    if (arrays.objects && arrays.owners && arrays.boxes && arrays.whole && arrays.commit)
+        result = build_often(file, desc, builds, &arrays, build);
+    free(arrays.objects);
+    free(arrays.owners);
+    free(arrays.boxes);
+    free(arrays.whole);
+    free(arrays.commit);
+    return result;
+}
