@@ -12,9 +12,8 @@
 
 #define OCC_NODE_LANES   8u
 #define OCC_SHADOW_LANES 16u
-
-#define OCC_FACE_LANE   6u
-#define OCC_NO_PLANE_AT 1e30f // the offset in lanes without a plane
+#define OCC_FACE_LANE    6u
+#define OCC_NO_PLANE_AT  1e30f // the offset in lanes without a plane
 
 // One shadow with its planes side by side: coordinate j of plane p is plane[j][p]. Silhouettes
 // begin at lane 0, faces at OCC_FACE_LANE; everything is inside the planes of the other lanes.
@@ -30,7 +29,6 @@ typedef struct occ_siblings {
     uint32_t count;
     uint32_t frustum;                    // planes that may cut the parent
     uint32_t outside;                    // bit c: child c is outside the frustum
-    uint32_t hidden;                     // bit c: one shadow holds all of child c
     uint32_t frustum_of[OCC_NODE_LANES]; // planes that may cut child c
 } occ_siblings;
 

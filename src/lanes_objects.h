@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// The test of objects, as many at once as there are lanes.
+#ifndef OCC_LANES_OBJECTS_H
+#define OCC_LANES_OBJECTS_H
+
+#include "lanes_fusion.h"
+#include "lanes_screen.h"
+
+#include "box.h"
+
+#define ALL_WIDE      ((1u << OCC_WIDTH) - 1u)
+#define LISTED_BLOCKS 16u // of candidates of a range
+
+typedef struct object_lanes {
+    fwide t[3];
+    fwide a[9];
+    fwide e;
+} object_lanes;
+
+static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_t row,
+                                const occ_eye *eye)
+{
+    for (uint32_t j = 0; j < 3; j++) {
+        fwide center = load_wide(occ_boxes_column(boxes, j) + row);
+        o->t[j] = OCC_RELATIVE(center, eye->high[j], eye->low[j]);
+    }
+    for (uint32_t k = 0; k < 9; k++)
+        o->a[k] = load_wide(occ_boxes_column(boxes, 3 + k) + row);
+    fwide size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
+    size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
+    size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
+    size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
+    o->e = OCC_BOUND(size, eye->slack_floor);
+}
+
+static inline fwide reach_of_objects(const object_lanes *o, const float n[4])
+{
+    fwide r = OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[0], o->a[1], o->a[2]);
+    r += OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[3], o->a[4], o->a[5]);
+    r += OCC_REACH_OF_AXIS(n[0], n[1], n[2], o->a[6], o->a[7], o->a[8]);
+    return r;
+}
+
+static inline fwide center_of_objects(const object_lanes *o, const float n[4])
+{
+    return OCC_PLANE_AT(n[0], n[1], n[2], n[3], o->t[0], o->t[1], o->t[2]);
+}
+
+static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye, uint32_t planes)
+{
+    uint32_t outside = 0;
+    for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
+        if (!(planes >> p & 1u)) continue;
+        fwide s = center_of_objects(o, eye->plane[p]), r = reach_of_objects(o, eye->plane[p]);
+        outside |= above_wide(-o->e, s + r);
+    }
+    return outside;
+}
+
+// The objects whose center a shadow holds by more than the bound (as in hold_center()), among those
+// that are open.
+static inline uint32_t centers_inside(const object_lanes *o, const occ_shadow *shadow,
+                                      uint32_t open)
+{
+    for (uint32_t p = 0; p < shadow->planes && open; p++)
+        open &= above_wide(center_of_objects(o, shadow->plane[p]), o->e);
+    return open;
+}
+
+static inline uint32_t inside_shadow(const object_lanes *o, const occ_shadow *shadow, uint32_t open)
+{
+    for (uint32_t p = 0; p < shadow->planes && open; p++) {
+        fwide s = center_of_objects(o, shadow->plane[p]), r = reach_of_objects(o, shadow->plane[p]);
+        open &= above_wide(s - r, o->e);
+    }
+    return open;
+}
+
+// As occ_center_in_frustum().
+static inline uint32_t centers_in_frustum(const object_lanes *o, const occ_eye *eye, uint32_t mask)
+{
+    uint32_t in = ALL_WIDE;
+    for (uint32_t p = 0; p < OCC_SIDE_PLANES; p++)
+        if (mask >> p & 1u) in &= above_wide(center_of_objects(o, eye->plane[p]), splat_wide(0.0f));
+    return in;
+}
+
+// Where a range's candidates are on the screen, sixteen by sixteen in the order of the list.
+typedef struct screen_list {
+    occ_rect_block block[LISTED_BLOCKS];
+    uint32_t count; // the candidates beyond may be anywhere
+} screen_list;
+
+static void list_screen(screen_list *list, const occ_candidates *candidates)
+{
+    const uint32_t most = LISTED_BLOCKS * OCC_SHADOW_LANES;
+    list->count = candidates->count < most ? candidates->count : most;
+    for (uint32_t i = 0; i < list->count; i++) {
+        uint32_t s = candidates->list[i], lane = s % OCC_SHADOW_LANES;
+        const occ_rect_block *from = &candidates->set->rects[s / OCC_SHADOW_LANES];
+        occ_rect_block *to = &list->block[i / OCC_SHADOW_LANES];
+        for (uint32_t j = 0; j < 2; j++) {
+            to->min[j][i % OCC_SHADOW_LANES] = from->min[j][lane];
+            to->max[j][i % OCC_SHADOW_LANES] = from->max[j][lane];
+        }
+    }
+}
+
+// Whether candidate c holds corner k of the object in this row.
+static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c, uint32_t row,
+                                   const occ_projection *seen, uint32_t k, float e)
+{
+    uint32_t s = candidates->list[c];
+    return holds_point(&candidates->set->wide[s], seen->x[k], seen->y[k], seen->z[k], e) &&
+           candidates->set->shadows[s].owner != row;
+}
+
+static inline bool corner_is_held(const screen_list *list, const occ_candidates *candidates,
+                                  uint32_t row, const occ_projection *seen, uint32_t k, float e)
+{
+    for (uint32_t i = 0, b = 0; i < list->count; i += OCC_SHADOW_LANES, b++) {
+        uint32_t near = block_near_point(&list->block[b], seen, k);
+        for (near = present(near, list->count - i); near; near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctz(near);
+            if (candidate_holds(candidates, c, row, seen, k, e)) return true;
+        }
+    }
+    for (uint32_t c = list->count; c < candidates->count; c++)
+        if (candidate_holds(candidates, c, row, seen, k, e)) return true;
+    return false;
+}
+
+// What the objects of a range have in common.
+typedef struct range_fusion {
+    const occ_range *range;
+    const occ_eye *eye;
+    const occ_screen *screen;
+    const occ_candidates *candidates;
+    screen_list list;
+    uint32_t hint; // the corner that showed last
+    bool listed;
+} range_fusion;
+
+// As occ_box_fused(), where a candidate holds the center or the center is not in the picture.
+static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row)
+{
+    const occ_candidates *candidates = common->candidates;
+    occ_projection seen;
+    fusion_lanes fusion;
+    project_corners(common->screen, box, &seen);
+    uint32_t shown = corners_in_frustum(&seen, common->eye, common->range->frustum);
+    for (uint32_t i = 0; i < 8; i++) {
+        uint32_t k = (i + common->hint) & 7u;
+        if (!(shown >> k & 1u)) continue;
+        if (corner_is_held(&common->list, candidates, row, &seen, k, box->e)) continue;
+        common->hint = k;
+        return false;
+    }
+    start_fusion(&fusion);
+    for (uint32_t i = 0; i < candidates->count; i++) {
+        uint32_t s = candidates->list[i];
+        if (candidates->set->shadows[s].owner == row) continue;
+        if (consider(&fusion, box, &candidates->set->wide[s])) return true;
+    }
+    return fusion.candidates && fuse_candidates(&fusion, box, common->eye, common->range->frustum);
+}
+
+// Objects of `open` that several candidates hide together.
+static uint32_t fuse_objects(range_fusion *common, const occ_boxes *boxes, uint32_t row,
+                             uint32_t open)
+{
+    uint32_t hidden = 0;
+    if (open && !common->listed) list_screen(&common->list, common->candidates);
+    common->listed |= open != 0;
+    for (; open; open &= open - 1u) {
+        uint32_t l = (uint32_t)__builtin_ctz(open);
+        const occ_box box = occ_boxes_get(boxes, row + l);
+        occ_relative_box relative = occ_box_relative(&box, common->eye);
+        hidden |= (uint32_t)fuse(common, &relative, row + l) << l;
+    }
+    return hidden;
+}
+
+static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
+                        const occ_screen *screen, const occ_candidates *candidates)
+{
+    occ_verdict verdict = {{0, 0}, {0, 0}};
+    range_fusion common;
+    common.range = range;
+    common.eye = eye;
+    common.screen = screen;
+    common.candidates = candidates;
+    common.hint = 0;
+    common.listed = false;
+    for (uint32_t i = 0; i < range->count; i += OCC_WIDTH) {
+        object_lanes lanes;
+        uint32_t row = range->first + i, left = range->count - i;
+        load_objects(&lanes, boxes, row, eye);
+        uint32_t all = left >= OCC_WIDTH ? ALL_WIDE : (1u << left) - 1u;
+        uint32_t outside = outside_frustum(&lanes, eye, range->frustum) & all;
+        uint32_t open = all & ~outside, held = 0;
+        for (uint32_t c = 0; c < candidates->count && open; c++) {
+            const occ_shadow *shadow = &candidates->set->shadows[candidates->list[c]];
+            uint32_t centers = centers_inside(&lanes, shadow, open);
+            uint32_t own = shadow->owner - row;
+            if (own < OCC_WIDTH) centers &= ~(1u << own);
+            if (!centers) continue;
+            held |= centers;
+            open &= ~inside_shadow(&lanes, shadow, centers);
+        }
+        if (range->fused && open && candidates->count) {
+            uint32_t doubt = open & (held | ~centers_in_frustum(&lanes, eye, range->frustum));
+            open &= ~fuse_objects(&common, boxes, row, doubt);
+        }
+        verdict.visible[i / 32] |= open << i % 32;
+        verdict.outside[i / 32] |= outside << i % 32;
+    }
+    return verdict;
+}
+
+#endif
