@@ -8,6 +8,8 @@
 
 #include "outline.h"
 
+#include <stdbool.h>
+
 #define VERTEX_LANES 16u
 
 // Vertices beyond `count` are whatever they are.
