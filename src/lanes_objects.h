@@ -97,12 +97,8 @@ static void list_screen(screen_list *list, const occ_candidates *candidates)
     list->count = candidates->count < most ? candidates->count : most;
     for (uint32_t i = 0; i < list->count; i++) {
         uint32_t s = candidates->list[i], lane = s % OCC_SHADOW_LANES;
-        const occ_rect_block *from = &candidates->set->rects[s / OCC_SHADOW_LANES];
-        occ_rect_block *to = &list->block[i / OCC_SHADOW_LANES];
-        for (uint32_t j = 0; j < 2; j++) {
-            to->min[j][i % OCC_SHADOW_LANES] = from->min[j][lane];
-            to->max[j][i % OCC_SHADOW_LANES] = from->max[j][lane];
-        }
+        copy_rect(&list->block[i / OCC_SHADOW_LANES], i % OCC_SHADOW_LANES,
+                  &candidates->set->rects[s / OCC_SHADOW_LANES], lane);
     }
 }
 
