@@ -67,8 +67,7 @@ static inline uint32_t present(uint32_t bits, uint32_t count)
 }
 
 // Occluders of a block that may touch the box, by where they are on the screen.
-static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen,
-                                      float key)
+static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen)
 {
     uint32_t bits = 0;
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
@@ -76,9 +75,17 @@ static inline uint32_t block_near_box(const occ_rect_block *block, const occ_pro
         near &= not_above_wide(splat_wide(seen->min[0]), load_wide(block->max[0] + g));
         near &= not_above_wide(load_wide(block->min[1] + g), splat_wide(seen->max[1]));
         near &= not_above_wide(splat_wide(seen->min[1]), load_wide(block->max[1] + g));
-        near &= not_above_wide(load_wide(block->key + g), splat_wide(key));
         bits |= near << g;
     }
+    return bits;
+}
+
+// Those that are no farther than `key`.
+static inline uint32_t block_before(const occ_rect_block *block, float key)
+{
+    uint32_t bits = 0;
+    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH)
+        bits |= not_above_wide(load_wide(block->key + g), splat_wide(key)) << g;
     return bits;
 }
 

@@ -56,7 +56,7 @@ static inline void list_near(near_list *list, const occ_question *question,
 {
     uint32_t n = 0;
     for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_box(&set->rects[b], question->seen, INFINITY);
+        uint32_t near = block_near_box(&set->rects[b], question->seen);
         for (near = present(near, set->count - first); near; near &= near - 1u) {
             uint32_t lane = (uint32_t)__builtin_ctz(near);
             if (n == NEAR_BLOCKS * OCC_SHADOW_LANES) break;
@@ -194,7 +194,8 @@ static bool gather(const occ_question *question, const occ_shadow_set *set, uint
 {
     uint32_t listed = 0;
     for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_box(&set->rects[b], question->seen, question->key);
+        uint32_t near = block_near_box(&set->rects[b], question->seen);
+        near &= block_before(&set->rects[b], question->key);
         for (near = present(near, set->count - i); near; near &= near - 1u) {
             uint32_t s = i + (uint32_t)__builtin_ctz(near);
             contact met = meet_asked(question, &set->wide[s]);
