@@ -187,4 +187,15 @@ static inline float largest_of_eight(const float *x)
     return b > c ? b : c;
 }
 
+// Packs those of sixteen floats that `lanes` names. May write up to sixteen.
+static inline void compress_sixteen(float *to, const float *from, uint32_t lanes)
+{
+#if OCC_WIDTH == 16
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)lanes, _mm512_loadu_ps(from)));
+#else
+    for (; lanes; lanes &= lanes - 1u)
+        *to++ = from[__builtin_ctz(lanes)];
+#endif
+}
+
 #endif
