@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_CELLS 2.0 // an item is at most that many of its cells wide
+
 // A tree with its items in order, and what a visit of all nodes has seen.
 typedef struct visit {
     const occ_octree *tree;
@@ -96,20 +98,22 @@ static void check_sizes(const visit *v, const occ_node *node, uint32_t own)
     double cell = cell_size(v, node->level);
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         double wide = width(&v->items[i]);
-        KIT_CHECK(node->level == 0 || wide <= cell, "an item is wider than its cell");
+        KIT_CHECK(node->level == 0 || wide <= MOST_CELLS * cell,
+                  "an item is too wide for its cell");
         KIT_CHECK(same_cell(v, &v->items[node->first], &v->items[i], node->level),
                   "two items of a node lie in two cells");
         bool is_own = i < node->first + own;
         bool keeps = node->children || node->count > v->tree->leaf_items;
         if (is_own && keeps && node->level < OCC_TREE_BITS) {
-            KIT_CHECK(wide > 0.5 * cell, "an item stays above the level its size deserves");
+            KIT_CHECK(wide > 0.5 * MOST_CELLS * cell,
+                      "an item stays above the level its size deserves");
         }
     }
     for (int j = 0; j < 3 && node->level; j++) {
         double extent = (double)node->max[j] - (double)node->min[j];
-        KIT_CHECK(extent <= 2.0 * cell * (1.0 + 0x1p-20) + 0x1p-140 +
+        KIT_CHECK(extent <= (1.0 + MOST_CELLS) * cell * (1.0 + 0x1p-20) + 0x1p-140 +
                                 fabs((double)node->max[j]) * 0x1p-20,
-                  "a node is wider than twice its cell");
+                  "a node sticks out of its cell too far");
     }
 }
 

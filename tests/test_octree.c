@@ -157,7 +157,8 @@ static occ_scene *new_scene(uint32_t leaf_objects)
     return scene;
 }
 
-// Adds boxes as objects, each as an occluder that its object owns, and each as one that nobody does.
+// Adds boxes as objects, each as an occluder that its object owns, and each as one that nobody
+// does.
 static void add(occ_scene *scene, const occ_box *boxes, size_t count)
 {
     occ_box twice[2 * COUNT];
