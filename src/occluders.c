@@ -5,6 +5,8 @@
 #include "shadow.h"
 #include "vector.h"
 
+_Static_assert(OCC_NO_SLOT == OCC_NOBODY, "an owner's row is what a shadow knows of it");
+
 void occ_occluders_clear(occ_frame *frame)
 {
     frame->shadows.count = frame->wide.count = frame->sources.count = frame->rects.count = 0;
@@ -70,18 +72,18 @@ static void put_rect(occ_rect_block *block, uint32_t lane, const occ_camera *cam
     block->key[lane] = key;
 }
 
-occ_result occ_occluders_add(occ_frame *frame, uint32_t slot, float key, const occ_projection *seen)
+occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const occ_projection *seen)
 {
     const occ_scene *scene = frame->scene;
-    uint32_t owner = scene->occluders.value[slot], lane = frame->shadows.count % OCC_SHADOW_LANES;
-    uint32_t row = owner == OCC_NO_SLOT ? OCC_NOBODY : scene->objects.value[owner];
+    uint32_t slot = scene->occluder_rows.slot_of[row], owner = occ_scene_owner_row(scene, row);
+    uint32_t lane = frame->shadows.count % OCC_SHADOW_LANES;
     occ_shadow *shadow = occ_array_extend(frame->hooks, &frame->shadows, 1);
     occ_wide_shadow *wide = occ_array_extend(frame->hooks, &frame->wide, 1);
     occ_occluder *source = occ_array_extend(frame->hooks, &frame->sources, 1);
     if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
     if (!occ_array_extend(frame->hooks, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
-    const occ_box *box = &occ_scene_occluder_boxes(scene)[slot];
-    if (!occ_shadow_init(shadow, &frame->camera, box, row)) return OCC_SUCCESS;
+    const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
+    if (!occ_shadow_init(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);
     *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
     if (!lane)
