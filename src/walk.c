@@ -176,7 +176,7 @@ static occ_result open_node(occ_frame *frame, const occ_walk_entry *entry)
     bool whole = !node->children || node->count <= frame->knobs.grain;
     uint32_t rows = whole ? node->count : occ_node_own(tree, node);
     if (rows && leave_open(frame, entry, node->first, rows)) return OCC_ERROR_OUT_OF_MEMORY;
-    if (rows && frame->scene->attached.count) {
+    if (rows && frame->scene->attached.count && frame->knobs.method != OCC_METHOD_FRUSTUM) {
         const occ_attached *attached = frame->scene->attached.data;
         uint32_t first = attached[entry->index].first, count = attached[entry->index].count;
         if (!whole) count = attached[node->child].first - first;
