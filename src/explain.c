@@ -10,12 +10,12 @@
 #include <string.h>
 
 // A box that is hidden, or so it is claimed: the object's, or that of a node with which it fell.
-typedef struct claim {
+typedef struct box_claim {
     occ_relative_box box;
     uint32_t frustum;     // planes that may cut it
     uint32_t first, rows; // what these rows own does not hide it together with others
     bool node;            // by its outline alone, as the walk did
-} claim;
+} box_claim;
 
 // Shadows, by their places among the frame's, nearest first.
 typedef struct culprits {
@@ -33,7 +33,8 @@ static const occ_shadow *shadows_of(const occ_frame *frame)
 // --- proofs --------------------------------------------------------------------------------------
 
 // The nearest that hides the box alone.
-static bool find_single(const occ_frame *frame, const claim *claim, uint32_t row, culprits *found)
+static bool find_single(const occ_frame *frame, const box_claim *claim, uint32_t row,
+                        culprits *found)
 {
     const occ_shadow *shadow = shadows_of(frame);
     for (uint32_t i = 0; i < frame->shadows.count; i++, shadow++) {
@@ -53,7 +54,7 @@ static void begin_fusion(occ_fusion *fusion)
 }
 
 // Lists those of `list` that touch the box. None hides it alone.
-static void add_candidates(occ_fusion *fusion, const occ_frame *frame, const claim *claim,
+static void add_candidates(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim,
                            const uint32_t *list, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -67,7 +68,7 @@ static void add_candidates(occ_fusion *fusion, const occ_frame *frame, const cla
 }
 
 // Lists all that touch the box, in the order and with the choice of the walk.
-static void add_all_near(occ_fusion *fusion, const occ_frame *frame, const claim *claim)
+static void add_all_near(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim)
 {
     occ_shadow_set all = occ_occluders_so_far(frame);
     occ_projection seen;
@@ -90,8 +91,8 @@ static void add_all_near(occ_fusion *fusion, const occ_frame *frame, const claim
 }
 
 // As occ_fusion_covers(); notes in `used` which candidates were subtracted.
-static bool covers(occ_fusion *fusion, const occ_frame *frame, const claim *claim, bool by_faces,
-                   uint64_t *used)
+static bool covers(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim,
+                   bool by_faces, uint64_t *used)
 {
     const occ_eye *eye = &frame->camera.constants;
     const occ_shadow *shadows = shadows_of(frame);
@@ -114,7 +115,8 @@ static bool covers(occ_fusion *fusion, const occ_frame *frame, const claim *clai
 
 // Whether the candidates hide the box together, and which of them it takes: none if the box is
 // outside of the frustum, beyond a corner of it.
-static bool prove(occ_fusion *fusion, const occ_frame *frame, const claim *claim, culprits *found)
+static bool prove(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim,
+                  culprits *found)
 {
     uint64_t used;
     if (!fusion->candidates) return false;
@@ -129,7 +131,7 @@ static bool prove(occ_fusion *fusion, const occ_frame *frame, const claim *claim
 }
 
 // Drops what the others can do without, the farthest first.
-static void shrink(const occ_frame *frame, const claim *claim, culprits *found)
+static void shrink(const occ_frame *frame, const box_claim *claim, culprits *found)
 {
     for (uint32_t i = found->count; i-- > 0 && found->count > 1;) {
         occ_fusion fusion;
@@ -188,7 +190,7 @@ static const occ_range *range_with(const occ_frame *frame, uint32_t row)
 }
 
 // What hides a box, if it is hidden: one occluder, or several together.
-static bool explain_box(const occ_frame *frame, const claim *claim, uint32_t row,
+static bool explain_box(const occ_frame *frame, const box_claim *claim, uint32_t row,
                         const occ_range *range, culprits *found)
 {
     occ_fusion fusion;
@@ -212,11 +214,11 @@ static bool explain_nodes(const occ_frame *frame, const occ_octree *tree, const 
 {
     for (uint32_t i = path->count; i-- > 0;) {
         const occ_node *node = occ_octree_nodes(tree) + path->node[i];
-        claim claim = {.box = occ_frame_relative_node(frame, node),
-                       .frustum = path->frustum[i],
-                       .first = node->first,
-                       .rows = node->count,
-                       .node = true};
+        box_claim claim = {.box = occ_frame_relative_node(frame, node),
+                           .frustum = path->frustum[i],
+                           .first = node->first,
+                           .rows = node->count,
+                           .node = true};
         if (explain_box(frame, &claim, row, NULL, found)) return true;
     }
     return false;
@@ -232,7 +234,7 @@ static occ_result explain_row(const occ_view *view, const occ_scene *scene, uint
     node_path path;
     find_path(frame, &scene->object_tree, row, &path);
     uint32_t planes = range ? range->frustum : path.frustum[path.count - 1];
-    claim claim = {
+    box_claim claim = {
         .box = occ_frame_relative(frame, &box), .frustum = planes, .first = row, .rows = 1};
     const float *plane = frame->camera.constants.plane[0];
     *fate = OCC_FATE_OUTSIDE;
