@@ -10,16 +10,20 @@
 
 static const uint32_t corner_codes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-static void project_center(const occ_screen *screen, const float p[3], occ_projection *seen)
+// Where (x, y, z) / w is.
+static inline void project_vertex(const occ_screen *screen, const occ_vertex *p, float *u, float *v)
 {
-    const float *n = screen->row[2];
-    float w = OCC_PLANE_AT(n[0], n[1], n[2], screen->w, p[0], p[1], p[2]);
-    bool clear = w > screen->least * OCC_NORM1(p[0], p[1], p[2]);
-    for (uint32_t r = 0; r < 2; r++) {
-        n = screen->row[r];
-        float at = clear ? (n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / w : NAN;
-        *(r ? &seen->v[8] : &seen->u[8]) = at;
-    }
+    const float(*row)[3] = screen->row;
+    float w = OCC_PLANE_AT(row[2][0], row[2][1], row[2][2], screen->w * p->w, p->x, p->y, p->z);
+    bool clear = w > screen->least * OCC_NORM1(p->x, p->y, p->z);
+    *u = clear ? (row[0][0] * p->x + row[0][1] * p->y + row[0][2] * p->z) / w : NAN;
+    *v = clear ? (row[1][0] * p->x + row[1][1] * p->y + row[1][2] * p->z) / w : NAN;
+}
+
+static inline void project_center(const occ_screen *screen, const float p[3], occ_projection *seen)
+{
+    occ_vertex center = {p[0], p[1], p[2], 1.0f, 0.0f};
+    project_vertex(screen, &center, &seen->u[8], &seen->v[8]);
 }
 
 static void project_corners(const occ_screen *screen, const occ_relative_box *box,
@@ -63,8 +67,7 @@ static inline uint32_t present(uint32_t bits, uint32_t count)
 }
 
 // Occluders of a block that may touch the box, by where they are on the screen.
-static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen,
-                                      float key)
+static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen)
 {
     uint32_t bits = 0;
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
@@ -72,19 +75,26 @@ static inline uint32_t block_near_box(const occ_rect_block *block, const occ_pro
         near &= not_above_wide(splat_wide(seen->min[0]), load_wide(block->max[0] + g));
         near &= not_above_wide(load_wide(block->min[1] + g), splat_wide(seen->max[1]));
         near &= not_above_wide(splat_wide(seen->min[1]), load_wide(block->max[1] + g));
-        near &= not_above_wide(load_wide(block->key + g), splat_wide(key));
         bits |= near << g;
     }
     return bits;
 }
 
-// Those that may hold point i.
-static inline uint32_t block_near_point(const occ_rect_block *block, const occ_projection *seen,
-                                        uint32_t i)
+// Those that are no farther than `key`.
+static inline uint32_t block_before(const occ_rect_block *block, float key)
 {
     uint32_t bits = 0;
+    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH)
+        bits |= not_above_wide(load_wide(block->key + g), splat_wide(key)) << g;
+    return bits;
+}
+
+// Those that may hold a point there.
+static inline uint32_t block_near(const occ_rect_block *block, float at_u, float at_v)
+{
+    uint32_t bits = 0;
+    fwide u = splat_wide(at_u), v = splat_wide(at_v);
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        fwide u = splat_wide(seen->u[i]), v = splat_wide(seen->v[i]);
         uint32_t near = not_above_wide(load_wide(block->min[0] + g), u);
         near &= not_above_wide(u, load_wide(block->max[0] + g));
         near &= not_above_wide(load_wide(block->min[1] + g), v);
@@ -92,6 +102,21 @@ static inline uint32_t block_near_point(const occ_rect_block *block, const occ_p
         bits |= near << g;
     }
     return bits;
+}
+
+static inline uint32_t block_near_point(const occ_rect_block *block, const occ_projection *seen,
+                                        uint32_t i)
+{
+    return block_near(block, seen->u[i], seen->v[i]);
+}
+
+static inline void copy_rect(occ_rect_block *to, uint32_t lane, const occ_rect_block *from,
+                             uint32_t from_lane)
+{
+    for (uint32_t j = 0; j < 2; j++) {
+        to->min[j][lane] = from->min[j][from_lane];
+        to->max[j][lane] = from->max[j][from_lane];
+    }
 }
 
 // As occ_point_in_frustum(), for the corners.
