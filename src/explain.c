@@ -17,17 +17,27 @@ typedef struct box_claim {
     bool node;            // by its outline alone, as the walk did
 } box_claim;
 
-// Shadows, by their places among the frame's, nearest first.
+#define MOST_CULPRITS 1024u // a proof that takes more is given up
+
+// Shadows, by their places among the frame's.
 typedef struct culprits {
-    uint32_t place[OCC_FUSION_CANDIDATES];
+    uint32_t place[MOST_CULPRITS];
     uint32_t count;
 } culprits;
 
-_Static_assert(OCC_FUSION_CANDIDATES <= 64, "a word says which candidates were used");
+// A proof on its way: what is left of the box, and what was taken from it.
+typedef struct box_proof {
+    const occ_frame *frame;
+    const box_claim *claim;
+    const culprits *among; // NULL: all of the frame's
+    bool by_faces;
+    occ_fusion fusion;
+    culprits used;
+} box_proof;
 
-static const occ_shadow *shadows_of(const occ_frame *frame)
+static const occ_shadow *shadow_at(const occ_frame *frame, uint32_t place)
 {
-    return frame->shadows.data;
+    return (const occ_shadow *)frame->shadows.data + place;
 }
 
 // --- proofs --------------------------------------------------------------------------------------
@@ -36,8 +46,8 @@ static const occ_shadow *shadows_of(const occ_frame *frame)
 static bool find_single(const occ_frame *frame, const box_claim *claim, uint32_t row,
                         culprits *found)
 {
-    const occ_shadow *shadow = shadows_of(frame);
-    for (uint32_t i = 0; i < frame->shadows.count; i++, shadow++) {
+    for (uint32_t i = 0; i < frame->shadows.count; i++) {
+        const occ_shadow *shadow = shadow_at(frame, i);
         if (shadow->owner == row) continue;
         if (!occ_box_in_shadow(&claim->box, shadow->plane[0], shadow->planes)) continue;
         found->place[0] = i;
@@ -47,86 +57,78 @@ static bool find_single(const occ_frame *frame, const box_claim *claim, uint32_t
     return false;
 }
 
-static void begin_fusion(occ_fusion *fusion)
+// The planes of a shadow that cut the box, or 0: it cannot hide it together with others.
+static uint32_t planes_that_cut(box_proof *proof, const occ_shadow *shadow)
 {
-    fusion->depth = fusion->candidates = fusion->faces = 0;
-    fusion->held = 0;
+    const box_claim *claim = proof->claim;
+    occ_fusion *fusion = &proof->fusion;
+    if (shadow->owner - claim->first < claim->rows) return 0;
+    fusion->candidates = 0;
+    (void)occ_fusion_consider(fusion, &claim->box, shadow, 0);
+    if (!fusion->candidates) return 0;
+    bool face = fusion->planes[0] >> occ_shadow_silhouettes(shadow);
+    return face && !proof->by_faces ? 0 : fusion->planes[0];
 }
 
-// Lists those of `list` that touch the box. None hides it alone.
-static void add_candidates(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim,
-                           const uint32_t *list, uint32_t count)
+// Puts a place among the others, in order. False if there is no room.
+static bool note(culprits *used, uint32_t place)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        const occ_shadow *shadow = shadows_of(frame) + list[i];
-        uint32_t before = fusion->candidates;
-        if (shadow->owner - claim->first < claim->rows) continue;
-        (void)occ_fusion_consider(fusion, &claim->box, shadow, list[i]);
-        if (!claim->node || fusion->candidates == before) continue;
-        if (fusion->planes[before] >> occ_shadow_silhouettes(shadow)) fusion->candidates = before;
-    }
-}
-
-// Lists all that touch the box, in the order and with the choice of the walk.
-static void add_all_near(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim)
-{
-    occ_shadow_set all = occ_occluders_so_far(frame);
-    occ_projection seen;
-    frame->lanes->project(&frame->camera.screen, &claim->box, &seen);
-    occ_question question = {.box = &claim->box,
-                             .seen = &seen,
-                             .first = claim->first,
-                             .rows = claim->rows,
-                             .key = INFINITY,
-                             .upright = claim->node};
-    for (uint32_t i = 0; i < all.count; i += OCC_SHADOW_LANES) {
-        uint32_t list[OCC_SHADOW_LANES], count = 0, left = all.count - i;
-        occ_shadow_set block = {all.shadows + i, all.wide + i, all.rects + i / OCC_SHADOW_LANES,
-                                left < OCC_SHADOW_LANES ? left : OCC_SHADOW_LANES};
-        if (frame->lanes->gather(&question, &block, list, &count)) continue;
-        for (uint32_t k = 0; k < count; k++)
-            list[k] += i;
-        add_candidates(fusion, frame, claim, list, count);
-    }
-}
-
-// As occ_fusion_covers(); notes in `used` which candidates were subtracted.
-static bool covers(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim,
-                   bool by_faces, uint64_t *used)
-{
-    const occ_eye *eye = &frame->camera.constants;
-    const occ_shadow *shadows = shadows_of(frame);
-    occ_outline outline;
-    *used = 0;
-    if (!occ_outline_set(&outline, &claim->box, eye, by_faces)) return false;
-    fusion->depth = occ_outline_pieces(&outline, &claim->box, fusion->stack);
-    if (!fusion->depth) return false;
-    occ_fusion_clip(fusion, eye, claim->frustum);
-    for (uint32_t split = 0; fusion->depth; split++) {
-        uint32_t i = occ_fusion_find(fusion, shadows, by_faces);
-        if (i == fusion->candidates || split == eye->splits ||
-            !occ_fusion_subtract(fusion, &shadows[fusion->candidate[i]], fusion->planes[i])) {
-            return false;
-        }
-        *used |= UINT64_C(1) << i;
-    }
+    uint32_t k = used->count;
+    while (k && used->place[k - 1] >= place)
+        k--;
+    if (k < used->count && used->place[k] == place) return true;
+    if (used->count == MOST_CULPRITS) return false;
+    memmove(&used->place[k + 1], &used->place[k], (used->count - k) * sizeof *used->place);
+    used->place[k] = place;
+    used->count++;
     return true;
 }
 
-// Whether the candidates hide the box together, and which of them it takes: none if the box is
-// outside of the frustum, beyond a corner of it.
-static bool prove(occ_fusion *fusion, const occ_frame *frame, const box_claim *claim,
+// Takes from the piece on top of the stack the first shadow that holds its middle. False if there
+// is none, or it cannot be done.
+static bool take_first(box_proof *proof)
+{
+    uint32_t count = proof->among ? proof->among->count : proof->frame->shadows.count;
+    occ_vertex middle;
+    occ_piece_middle(&proof->fusion.stack[proof->fusion.depth - 1], &middle);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t place = proof->among ? proof->among->place[i] : i;
+        const occ_shadow *shadow = shadow_at(proof->frame, place);
+        uint32_t planes = planes_that_cut(proof, shadow);
+        if (!planes || !occ_shadow_holds(shadow, planes, &middle)) continue;
+        if (!note(&proof->used, place)) return false;
+        return occ_fusion_subtract(&proof->fusion, shadow, planes);
+    }
+    return false;
+}
+
+// As occ_fusion_covers(), with however many candidates: the order in which shadows are taken is
+// that of the verdict, so that what it could prove is proved here.
+static bool covers(box_proof *proof, bool by_faces)
+{
+    const occ_eye *eye = &proof->frame->camera.constants;
+    const occ_relative_box *box = &proof->claim->box;
+    occ_fusion *fusion = &proof->fusion;
+    occ_outline outline;
+    proof->by_faces = by_faces;
+    proof->used.count = 0;
+    if (!occ_outline_set(&outline, box, eye, by_faces)) return false;
+    fusion->depth = occ_outline_pieces(&outline, box, fusion->stack);
+    if (!fusion->depth) return false;
+    occ_fusion_clip(fusion, eye, proof->claim->frustum);
+    for (uint32_t split = 0; fusion->depth; split++)
+        if (split == eye->splits || !take_first(proof)) return false;
+    return true;
+}
+
+// Whether shadows hide the box together, and which of them it takes: none if the box is outside of
+// the frustum, beyond a corner of it.
+static bool prove(const occ_frame *frame, const box_claim *claim, const culprits *among,
                   culprits *found)
 {
-    uint64_t used;
-    if (!fusion->candidates) return false;
-    if (!covers(fusion, frame, claim, false, &used) &&
-        (claim->node || !fusion->faces || !covers(fusion, frame, claim, true, &used))) {
-        return false;
-    }
-    found->count = 0;
-    for (; used; used &= used - 1)
-        found->place[found->count++] = fusion->candidate[__builtin_ctzll(used)];
+    box_proof proof = {.frame = frame, .claim = claim, .among = among};
+    if (!covers(&proof, false) && (claim->node || !covers(&proof, true))) return false;
+    *found = proof.used;
     return true;
 }
 
@@ -134,13 +136,11 @@ static bool prove(occ_fusion *fusion, const occ_frame *frame, const box_claim *c
 static void shrink(const occ_frame *frame, const box_claim *claim, culprits *found)
 {
     for (uint32_t i = found->count; i-- > 0 && found->count > 1;) {
-        occ_fusion fusion;
-        culprits fewer;
-        begin_fusion(&fusion);
-        add_candidates(&fusion, frame, claim, found->place, i);
-        add_candidates(&fusion, frame, claim, found->place + i + 1, found->count - i - 1);
-        if (!prove(&fusion, frame, claim, &fewer)) continue;
-        *found = fewer;
+        culprits fewer = *found, used;
+        fewer.count--;
+        memmove(&fewer.place[i], &fewer.place[i + 1], (fewer.count - i) * sizeof *fewer.place);
+        if (!prove(frame, claim, &fewer, &used)) continue;
+        *found = used;
         if (i > found->count) i = found->count;
     }
 }
@@ -180,30 +180,12 @@ static void find_path(const occ_frame *frame, const occ_octree *tree, uint32_t r
     } while (index && !path->outside);
 }
 
-// The range in which a row was handed to the test, or NULL: it fell in the walk.
-static const occ_range *range_with(const occ_frame *frame, uint32_t row)
-{
-    const occ_range *ranges = frame->ranges.data;
-    for (uint32_t i = 0; i < frame->ranges.count; i++)
-        if (row - ranges[i].first < ranges[i].count) return &ranges[i];
-    return NULL;
-}
-
 // What hides a box, if it is hidden: one occluder, or several together.
 static bool explain_box(const occ_frame *frame, const box_claim *claim, uint32_t row,
-                        const occ_range *range, culprits *found)
+                        culprits *found)
 {
-    occ_fusion fusion;
     if (find_single(frame, claim, row, found)) return true;
-    if (frame->knobs.method != OCC_METHOD_FUSED) return false;
-    begin_fusion(&fusion);
-    if (range) {
-        const uint32_t *list = (const uint32_t *)frame->candidates.data + range->candidates;
-        add_candidates(&fusion, frame, claim, list, range->candidate_count);
-    } else {
-        add_all_near(&fusion, frame, claim);
-    }
-    if (!prove(&fusion, frame, claim, found)) return false;
+    if (frame->knobs.method != OCC_METHOD_FUSED || !prove(frame, claim, NULL, found)) return false;
     shrink(frame, claim, found);
     return true;
 }
@@ -219,7 +201,7 @@ static bool explain_nodes(const occ_frame *frame, const occ_octree *tree, const 
                            .first = node->first,
                            .rows = node->count,
                            .node = true};
-        if (explain_box(frame, &claim, row, NULL, found)) return true;
+        if (explain_box(frame, &claim, row, found)) return true;
     }
     return false;
 }
@@ -229,17 +211,17 @@ static occ_result explain_row(const occ_view *view, const occ_scene *scene, uint
                               occ_fate *fate, culprits *found)
 {
     const occ_frame *frame = &view->frame;
-    const occ_range *range = range_with(frame, row);
     const occ_box box = occ_boxes_get(&scene->boxes, row);
     node_path path;
     find_path(frame, &scene->object_tree, row, &path);
-    uint32_t planes = range ? range->frustum : path.frustum[path.count - 1];
-    box_claim claim = {
-        .box = occ_frame_relative(frame, &box), .frustum = planes, .first = row, .rows = 1};
+    box_claim claim = {.box = occ_frame_relative(frame, &box),
+                       .frustum = path.frustum[path.count - 1],
+                       .first = row,
+                       .rows = 1};
     const float *plane = frame->camera.constants.plane[0];
     *fate = OCC_FATE_OUTSIDE;
-    if (occ_box_outside(&claim.box, plane, planes) || (!range && path.outside)) return OCC_SUCCESS;
-    if (!explain_box(frame, &claim, row, range, found) &&
+    if (path.outside || occ_box_outside(&claim.box, plane, claim.frustum)) return OCC_SUCCESS;
+    if (!explain_box(frame, &claim, row, found) &&
         !explain_nodes(frame, &scene->object_tree, &path, row, found)) {
         return occ_fail(&view->hooks, OCC_ERROR_CORRUPT, "row %u is hidden by nothing", row);
     }

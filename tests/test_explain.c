@@ -382,3 +382,29 @@ START_TEST(what_a_scene_hides_is_hidden_by_those_named)
         kit_cull(openmp, w.scene, &w.camera, &knobs);
         check_both(&w, plain, openmp, &counts);
     }
+    ck_assert_uint_gt(counts.by_one, 1000);
+    ck_assert_uint_gt(counts.by_several, 20);
+    tear_down(&w);
+    free(occluders);
+    obs_free(&file);
+    occ_view_destroy(plain);
+    occ_view_destroy(openmp);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("explain");
+    TCase *judged = tcase_create("judged");
+    tcase_add_test(judged, what_a_hard_world_hides_is_hidden_by_those_named);
+    tcase_add_test(judged, what_a_random_world_hides_is_hidden_by_those_named);
+    suite_add_tcase(suite, judged);
+    TCase *scenes = tcase_create("scenes");
+    tcase_add_loop_test(scenes, what_a_scene_hides_is_hidden_by_those_named, 0,
+                        sizeof scene_names / sizeof *scene_names);
+    suite_add_tcase(suite, scenes);
+    TCase *device = tcase_create("device");
+    tcase_add_test(device, a_device_says_the_same);
+    suite_add_tcase(suite, device);
+    return test_run_suite(suite);
+}
