@@ -53,9 +53,8 @@ bool occ_occluder_is_large(const occ_frame *frame, const occ_relative_box *box);
 // Whether one with this reach may be, at this distance at least.
 bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key);
 
-// Makes an occluder's shadow and adds it to the set, if it has one.
-occ_result occ_occluders_add(occ_frame *frame, uint32_t slot, float key,
-                             const occ_projection *seen);
+// Makes the shadow of the occluder in a row and adds it to the set, if it has one.
+occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const occ_projection *seen);
 
 occ_shadow_set occ_occluders_so_far(const occ_frame *frame);
 

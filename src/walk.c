@@ -103,23 +103,19 @@ static occ_result close_range(occ_frame *frame, const open_range *open)
 
 // --- occluders -----------------------------------------------------------------------------------
 
-// Pushes occluders [first, first + count) of the order that are large enough.
+// Pushes the occluders in rows [first, first + count) that are large enough.
 static occ_result push_occluders(occ_frame *frame, uint32_t planes, uint32_t first, uint32_t count)
 {
-    const uint32_t *order = frame->scene->occluder_order.data;
     const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
     const occ_eye *eye = &frame->camera.constants;
-    for (uint32_t i = first; i < first + count; i++)
-        __builtin_prefetch(&boxes[order[i]]);
     for (uint32_t i = first; i < first + count; i++) {
-        occ_relative_box box = occ_frame_relative(frame, &boxes[order[i]]);
+        occ_relative_box box = occ_frame_relative(frame, &boxes[i]);
         if (!occ_occluder_is_large(frame, &box)) continue;
         if (occ_box_outside(&box, eye->plane[0], planes)) continue;
         float h[3];
         for (int j = 0; j < 3; j++)
             h[j] = fabsf(box.a[j]) + fabsf(box.a[3 + j]) + fabsf(box.a[6 + j]);
-        occ_walk_entry entry = {occ_frame_nearness(frame, box.t, h), order[i],
-                                OCC_WALK_OCCLUDER | planes};
+        occ_walk_entry entry = {occ_frame_nearness(frame, box.t, h), i, OCC_WALK_OCCLUDER | planes};
         if (occ_heap_push(frame->hooks, &frame->heap, &entry)) return OCC_ERROR_OUT_OF_MEMORY;
     }
     return OCC_SUCCESS;
@@ -275,11 +271,11 @@ static occ_result visit(occ_frame *frame, const occ_walk_entry *entry)
 // Every occluder, and every object open.
 static occ_result take_all(occ_frame *frame)
 {
-    const uint32_t *order = frame->scene->occluder_order.data;
+    uint32_t count = frame->scene->occluder_rows.count;
     const occ_projection anywhere = {.min = {-INFINITY, -INFINITY}, .max = {INFINITY, INFINITY}};
-    for (uint32_t i = 0; i < frame->scene->occluder_order.count; i++)
-        if (occ_occluders_add(frame, order[i], 0.0f, &anywhere)) return OCC_ERROR_OUT_OF_MEMORY;
-    frame->stats.occluders_tested = frame->scene->occluder_order.count;
+    for (uint32_t i = 0; i < count; i++)
+        if (occ_occluders_add(frame, i, 0.0f, &anywhere)) return OCC_ERROR_OUT_OF_MEMORY;
+    frame->stats.occluders_tested = count;
     uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, frame->shadows.count + 1);
     if (!list) return OCC_ERROR_OUT_OF_MEMORY;
     for (uint32_t i = 0; i < frame->shadows.count; i++)

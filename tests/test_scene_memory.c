@@ -122,11 +122,12 @@ START_TEST(scene_built_at_once_holds_little_more_than_its_tables)
     fill(scene, (how)_i, OBJECTS / 2, objects);
     occ_scene_stats stats;
     ck_assert_int_eq(occ_scene_get_stats(scene, &stats), OCC_SUCCESS);
-    // A box, a slot's value and generation, and a place in the order for each; a node, and for
-    // the occluders its reach.
-    uint64_t item = sizeof(occ_box) + sizeof(uint32_t) + sizeof(uint16_t) + sizeof(uint32_t);
+    // A box, its slot, and the slot's value and generation for each, and an occluder's owner;
+    // nodes, with what is attached to them, or their reach.
+    uint64_t item = sizeof(occ_box) + sizeof(uint32_t) + sizeof(uint32_t) + sizeof(uint16_t);
     uint64_t tables = (stats.objects + stats.occluders) * item + sizeof *scene +
-                      stats.object_nodes * sizeof(occ_node) +
+                      stats.occluders * sizeof(uint32_t) +
+                      stats.object_nodes * (sizeof(occ_node) + sizeof(occ_attached)) +
                       stats.occluder_nodes * (sizeof(occ_node) + sizeof(float));
     ck_assert_uint_ge(stats.bytes, tables);
     ck_assert_uint_le(stats.bytes, tables + tables / 200);
