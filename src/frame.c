@@ -55,3 +55,17 @@ occ_relative_box occ_frame_relative(const occ_frame *frame, const occ_box *box)
 {
     return occ_box_relative(box, &frame->camera.constants);
 }
+
+occ_relative_box occ_frame_relative_node(const occ_frame *frame, const occ_node *node)
+{
+    const occ_eye *eye = &frame->camera.constants;
+    occ_relative_box box = {{0}, {0}, 0.0f};
+    for (int j = 0; j < 3; j++) {
+        float min = OCC_RELATIVE(node->min[j], eye->high[j], eye->low[j]);
+        float max = OCC_RELATIVE(node->max[j], eye->high[j], eye->low[j]);
+        box.t[j] = OCC_MIDDLE(min, max);
+        box.a[4 * j] = OCC_HALF(min, max);
+    }
+    box.e = occ_box_slack(&box, eye->slack_floor);
+    return box;
+}

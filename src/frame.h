@@ -58,7 +58,8 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
 
 occ_shadow_set occ_occluders_so_far(const occ_frame *frame);
 
-// A box relative to the eye, with its error bound.
+// A box relative to the eye, with its error bound, and a node.
 occ_relative_box occ_frame_relative(const occ_frame *frame, const occ_box *box);
+occ_relative_box occ_frame_relative_node(const occ_frame *frame, const occ_node *node);
 
 #endif

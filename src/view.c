@@ -181,5 +181,7 @@ occ_result occ_cull(occ_view *view, const occ_scene *scene, const occ_camera_des
     view->frame.scene = NULL;
     if (result) return result;
     view->has_result = true;
+    view->scene_id = scene->id;
+    view->revision = scene->revision;
     return OCC_SUCCESS;
 }

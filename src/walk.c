@@ -14,20 +14,6 @@ typedef struct open_range {
     uint32_t planes;
 } open_range;
 
-static occ_relative_box relative_node(const occ_frame *frame, const occ_node *node)
-{
-    const occ_eye *eye = &frame->camera.constants;
-    occ_relative_box box = {{0}, {0}, 0.0f};
-    for (int j = 0; j < 3; j++) {
-        float min = OCC_RELATIVE(node->min[j], eye->high[j], eye->low[j]);
-        float max = OCC_RELATIVE(node->max[j], eye->high[j], eye->low[j]);
-        box.t[j] = OCC_MIDDLE(min, max);
-        box.a[4 * j] = OCC_HALF(min, max);
-    }
-    box.e = occ_box_slack(&box, eye->slack_floor);
-    return box;
-}
-
 static float nearness_of_node(const occ_frame *frame, const occ_relative_box *box)
 {
     float h[3] = {box->a[0], box->a[4], box->a[8]};
@@ -122,7 +108,7 @@ static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t co
 static occ_result close_range(occ_frame *frame, const open_range *open)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + open->node;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen = project(frame, &box);
     float h[3] = {box.a[0], box.a[4], box.a[8]};
     occ_shadow_set set = occ_occluders_so_far(frame);
@@ -182,7 +168,7 @@ static occ_result push_child(occ_frame *frame, const occ_siblings *siblings, uin
 {
     const occ_node *nodes = occ_octree_nodes(&frame->scene->object_tree);
     const occ_node *child = &siblings->nodes[c];
-    occ_relative_box box = relative_node(frame, child);
+    occ_relative_box box = occ_frame_relative_node(frame, child);
     occ_walk_entry entry = {nearness_of_node(frame, &box), (uint32_t)(child - nodes),
                             OCC_WALK_NODE | siblings->frustum_of[c]};
     return occ_heap_push(frame->hooks, &frame->heap, &entry);
@@ -230,7 +216,7 @@ static occ_result open_node(occ_frame *frame, const occ_walk_entry *entry)
 static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     if (is_hidden(frame, &box, &seen, planes, node->first, node->count)) {
@@ -243,7 +229,7 @@ static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 static occ_result push_free(occ_frame *frame, uint32_t index, uint32_t planes)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->occluder_tree) + index;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_walk_entry entry = {nearness_of_node(frame, &box), index, OCC_WALK_FREE | planes};
     float reach = ((const float *)frame->scene->reach.data)[index];
     if (!occ_occluder_may_be_large(frame, reach, entry.key)) return OCC_SUCCESS;
@@ -255,7 +241,7 @@ static occ_result visit_free(occ_frame *frame, const occ_walk_entry *entry)
 {
     const occ_octree *tree = &frame->scene->occluder_tree;
     const occ_node *node = occ_octree_nodes(tree) + entry->index;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     frame->stats.nodes_tested++;
