@@ -64,6 +64,7 @@ static bool run_side(measure_settings settings, const obs_scene *scene, pair_tim
     bool good = true;
     if (round == ERROR_ROUNDS - 1)
         good = sum_up(times, side, &result, side == 0 ? &pair->one : &pair->two);
+    if (side == 0 && times->frames > 0) pair->warm_ms = result.frames[0].ms;
     if (round == 0 && side == 0) {
         pair->verdicts = result.verdicts;
         result.verdicts = (vis_result){0};

@@ -9,6 +9,7 @@
 /// What came out.
 typedef struct error_pair {
     measure_summary one, two; ///< A frame's time is the median over the rounds.
+    double warm_ms;           ///< The first frame on one thread, met before.
     double build_ms;          ///< Of the scene on two threads: the median over the rounds.
     vis_result verdicts;      ///< Those of one thread.
     bool is_same;             ///< Every mask of every round was the same.

@@ -26,7 +26,7 @@ typedef struct error_target {
     uint32_t objects, frames, truth_frames;
     measure_summary one, two; ///< On one thread and on two.
     double build_ms;          ///< On two threads.
-    double first_ms;          ///< The first frame of a fresh view, on one thread.
+    double first_ms, warm_ms; ///< The first frame on one thread: by a fresh view, and met before.
     bool is_same;             ///< One thread's masks and two threads' were the same.
     compare_sums sums;        ///< By what the judge left of the truth.
     settle_sums settled;      ///< What the judge was asked; zero without a judge.
