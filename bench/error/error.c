@@ -32,7 +32,7 @@ static const char error_usage[] =
     "  --targets      instead: the default method alone, on one thread and two, on the scenes "
     "with\n"
     "                 goals and on two other seeds of each (NAME_seed11, NAME_seed12); writes\n"
-    "                 targets.md and targets.csv\n"
+    "                 targets.md and targets.csv. With --quick small scenes and their own seeds\n"
     "  --settle N     objects of a result that are put to the exact judge where it and sampling "
     "do\n"
     "                 not agree, at most (default 3000; needs a build with GMP)\n"
@@ -109,6 +109,8 @@ static int parse_error(int argc, char **argv, error_arguments *arguments)
     if (count == OPTIONS_BAD) return 2;
     if (arguments->options.repeats == 0)
         arguments->options.repeats = arguments->wants_targets ? 5 : 3;
+    if (arguments->wants_targets && arguments->wants_hard)
+        return options_complain(argv[0], "--targets has no hard families: leave out --hard");
     const options_extent least = {1, 1};
     if (!options_size(arguments->size, least, TRUTH_MAX_SIDE, &arguments->extent))
         return options_complain(argv[0], "expected --size as 4096x2304, 16384x16384 at most");

@@ -12,10 +12,18 @@ enum { SINGLE_FRAME_REPEATS = 20, BUILDS = 3 };
 
 static bool is_wanted(const error_target_options *options, const error_source *source, int variant)
 {
-    if (options->is_quick && (variant > 0 || !source->is_quick)) return false;
-    if (options->scene_count == 0) return true;
+    if (options->scene_count == 0) return !options->is_quick || (variant == 0 && source->is_quick);
     for (int i = 0; i < options->scene_count; i++)
         if (strcmp(options->scenes[i], source->name) == 0) return true;
+    return false;
+}
+
+static bool is_known(const char *scene)
+{
+    char name[64];
+    for (const error_goal *goal = error_goals; goal->source.name; goal++)
+        for (int variant = 0; variant < ERROR_VARIANTS; variant++)
+            if (strcmp(error_goal_source(goal, variant, name).name, scene) == 0) return true;
     return false;
 }
 
@@ -91,6 +99,11 @@ static bool add_row(error_targets *targets, const error_target *row)
 // The scenes that goals were set for come first, then the other seeds.
 bool error_targets_run(const error_target_options *options, error_targets *targets)
 {
+    for (int i = 0; i < options->scene_count; i++)
+        if (!is_known(options->scenes[i])) {
+            fprintf(stderr, "occlude-bench: %s is no scene of --targets\n", options->scenes[i]);
+            return false;
+        }
     for (int variant = 0; variant < ERROR_VARIANTS; variant++)
         for (const error_goal *goal = error_goals; goal->source.name; goal++) {
             char name[64];
@@ -101,9 +114,7 @@ bool error_targets_run(const error_target_options *options, error_targets *targe
             error_target_print(stdout, &row);
             fflush(stdout);
         }
-    if (targets->count > 0) return true;
-    fputs("occlude-bench: none of these scenes has a target\n", stderr);
-    return false;
+    return true;
 }
 
 error_target_faults error_targets_faults(const error_targets *targets)

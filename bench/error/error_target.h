@@ -43,7 +43,7 @@ typedef struct error_target_options {
     const char *folder;        ///< Of scene files, or NULL.
     const char *const *scenes; ///< These alone, unless there are none...
     int scene_count;           ///< ...of so many.
-    bool is_quick;             ///< Small scenes and their own seeds alone.
+    bool is_quick;             ///< Small scenes and their own seeds, where none are named.
     uint32_t repeats;          ///< Timed culls of a frame in each round.
     settle_limits limits;
     error_truths truths;
