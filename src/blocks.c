@@ -156,8 +156,8 @@ static void make_keys(const occ_root *root, const occ_block *block, uint32_t cou
     for (int j = 0; j < 3; j++)
         code_axis(root, block, j, count, keys, width);
     for (uint32_t i = 0; i < count; i++) {
-        // Levels from the smallest cells up to those that are as wide as the item.
-        int32_t above = exponent_of(width[i]) - smallest;
+        // Levels from the smallest cells up to those that are half as wide as the item.
+        int32_t above = exponent_of(width[i]) - 1 - smallest;
         above = above < 0 ? 0 : above;
         above = above > most ? most : above;
         uint64_t kept = ~(uint64_t)0 << (3 * above);

@@ -8,8 +8,7 @@
 
 #include "box.h"
 
-#define ALL_WIDE      ((1u << OCC_WIDTH) - 1u)
-#define LISTED_BLOCKS 16u // of candidates of a range
+#define ALL_WIDE ((1u << OCC_WIDTH) - 1u)
 
 typedef struct object_lanes {
     fwide t[3];
@@ -85,24 +84,17 @@ static inline uint32_t centers_in_frustum(const object_lanes *o, const occ_eye *
     return in;
 }
 
-// Where a range's candidates are on the screen, sixteen by sixteen in the order of the list.
-typedef struct screen_list {
-    occ_rect_block block[LISTED_BLOCKS];
-    uint32_t count; // the candidates beyond may be anywhere
-} screen_list;
-
-static void list_screen(screen_list *list, const occ_candidates *candidates)
+// Where a range's candidates are on the screen, in their order. Those beyond may be anywhere.
+static void list_candidates(rect_list *list, const occ_candidates *candidates)
 {
-    const uint32_t most = LISTED_BLOCKS * OCC_SHADOW_LANES;
-    list->count = candidates->count < most ? candidates->count : most;
+    list->count = candidates->count < LISTED_MOST ? candidates->count : LISTED_MOST;
     for (uint32_t i = 0; i < list->count; i++) {
         uint32_t s = candidates->list[i], lane = s % OCC_SHADOW_LANES;
-        const occ_rect_block *from = &candidates->set->rects[s / OCC_SHADOW_LANES];
-        occ_rect_block *to = &list->block[i / OCC_SHADOW_LANES];
-        for (uint32_t j = 0; j < 2; j++) {
-            to->min[j][i % OCC_SHADOW_LANES] = from->min[j][lane];
-            to->max[j][i % OCC_SHADOW_LANES] = from->max[j][lane];
-        }
+        const occ_rect_block *block = &candidates->set->rects[s / OCC_SHADOW_LANES];
+        list->left[i] = block->min[0][lane];
+        list->right[i] = block->max[0][lane];
+        list->low[i] = block->min[1][lane];
+        list->high[i] = block->max[1][lane];
     }
 }
 
@@ -115,11 +107,12 @@ static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c,
            candidates->set->shadows[s].owner != row;
 }
 
-static inline bool corner_is_held(const screen_list *list, const occ_candidates *candidates,
+static inline bool corner_is_held(const rect_list *list, const occ_candidates *candidates,
                                   uint32_t row, const occ_projection *seen, uint32_t k, float e)
 {
-    for (uint32_t i = 0, b = 0; i < list->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_point(&list->block[b], seen, k);
+    for (uint32_t i = 0; i < list->count; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(list, i);
+        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
         for (near = present(near, list->count - i); near; near &= near - 1u) {
             uint32_t c = i + (uint32_t)__builtin_ctz(near);
             if (candidate_holds(candidates, c, row, seen, k, e)) return true;
@@ -136,9 +129,8 @@ typedef struct range_fusion {
     const occ_eye *eye;
     const occ_screen *screen;
     const occ_candidates *candidates;
-    screen_list list;
+    rect_list list;
     uint32_t hint; // the corner that showed last
-    bool listed;
 } range_fusion;
 
 // As occ_box_fused(), where a candidate holds the center or the center is not in the picture.
@@ -170,8 +162,6 @@ static uint32_t fuse_objects(range_fusion *common, const occ_boxes *boxes, uint3
                              uint32_t open)
 {
     uint32_t hidden = 0;
-    if (open && !common->listed) list_screen(&common->list, common->candidates);
-    common->listed |= open != 0;
     for (; open; open &= open - 1u) {
         uint32_t l = (uint32_t)__builtin_ctz(open);
         const occ_box box = occ_boxes_get(boxes, row + l);
@@ -179,6 +169,55 @@ static uint32_t fuse_objects(range_fusion *common, const occ_boxes *boxes, uint3
         hidden |= (uint32_t)fuse(common, &relative, row + l) << l;
     }
     return hidden;
+}
+
+// Where the centers of objects are on the screen: bounds of u and v, infinite if one is not clearly
+// in front of the eye.
+static inline void centers_on_screen(const object_lanes *o, const occ_screen *screen,
+                                     uint32_t objects, occ_projection *seen)
+{
+    const float(*row)[3] = screen->row;
+    const fwide *t = o->t, least = screen->least * OCC_NORM1(t[0], t[1], t[2]);
+    fwide w = OCC_PLANE_AT(row[2][0], row[2][1], row[2][2], screen->w, t[0], t[1], t[2]);
+    bool clear = (above_wide(w, least) & objects) == objects;
+    for (uint32_t r = 0; r < 2; r++) {
+        fwide at = (row[r][0] * t[0] + row[r][1] * t[1] + row[r][2] * t[2]) / w;
+        seen->min[r] = clear ? -largest_of_wide(-at, objects) : -INFINITY;
+        seen->max[r] = clear ? largest_of_wide(at, objects) : INFINITY;
+    }
+}
+
+// What is known of as many objects as there are lanes.
+typedef struct known_lanes {
+    uint32_t open; // in the frustum, and no candidate holds the object alone
+    uint32_t held; // one holds its center
+} known_lanes;
+
+static inline void test_candidate(known_lanes *known, const object_lanes *lanes, uint32_t row,
+                                  const occ_candidates *candidates, uint32_t c)
+{
+    const occ_shadow *shadow = &candidates->set->shadows[candidates->list[c]];
+    uint32_t centers = centers_inside(lanes, shadow, known->open), own = shadow->owner - row;
+    if (own < OCC_WIDTH) centers &= ~(1u << own);
+    if (!centers) return;
+    known->held |= centers;
+    known->open &= ~inside_shadow(lanes, shadow, centers);
+}
+
+static inline void test_candidates(known_lanes *known, const object_lanes *lanes, uint32_t row,
+                                   const range_fusion *common)
+{
+    const occ_candidates *candidates = common->candidates;
+    occ_projection seen;
+    centers_on_screen(lanes, common->screen, known->open, &seen);
+    for (uint32_t i = 0; i < common->list.count && known->open; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(&common->list, i);
+        uint32_t near = near_box(&rects, &seen);
+        for (near = present(near, common->list.count - i); near; near &= near - 1u)
+            test_candidate(known, lanes, row, candidates, i + (uint32_t)__builtin_ctz(near));
+    }
+    for (uint32_t c = common->list.count; c < candidates->count && known->open; c++)
+        test_candidate(known, lanes, row, candidates, c);
 }
 
 static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
@@ -191,28 +230,22 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
     common.screen = screen;
     common.candidates = candidates;
     common.hint = 0;
-    common.listed = false;
+    list_candidates(&common.list, candidates);
     for (uint32_t i = 0; i < range->count; i += OCC_WIDTH) {
         object_lanes lanes;
         uint32_t row = range->first + i, left = range->count - i;
         load_objects(&lanes, boxes, row, eye);
         uint32_t all = left >= OCC_WIDTH ? ALL_WIDE : (1u << left) - 1u;
         uint32_t outside = outside_frustum(&lanes, eye, range->frustum) & all;
-        uint32_t open = all & ~outside, held = 0;
-        for (uint32_t c = 0; c < candidates->count && open; c++) {
-            const occ_shadow *shadow = &candidates->set->shadows[candidates->list[c]];
-            uint32_t centers = centers_inside(&lanes, shadow, open);
-            uint32_t own = shadow->owner - row;
-            if (own < OCC_WIDTH) centers &= ~(1u << own);
-            if (!centers) continue;
-            held |= centers;
-            open &= ~inside_shadow(&lanes, shadow, centers);
+        known_lanes known = {.open = all & ~outside};
+        if (known.open && candidates->count) {
+            test_candidates(&known, &lanes, row, &common);
+            uint32_t in = centers_in_frustum(&lanes, eye, range->frustum);
+            if (range->fused) {
+                known.open &= ~fuse_objects(&common, boxes, row, known.open & (known.held | ~in));
+            }
         }
-        if (range->fused && open && candidates->count) {
-            uint32_t doubt = open & (held | ~centers_in_frustum(&lanes, eye, range->frustum));
-            open &= ~fuse_objects(&common, boxes, row, doubt);
-        }
-        verdict.visible[i / 32] |= open << i % 32;
+        verdict.visible[i / 32] |= known.open << i % 32;
         verdict.outside[i / 32] |= outside << i % 32;
     }
     return verdict;

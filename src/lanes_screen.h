@@ -10,16 +10,20 @@
 
 static const uint32_t corner_codes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-static void project_center(const occ_screen *screen, const float p[3], occ_projection *seen)
+// Where (x, y, z) / w is.
+static inline void project_vertex(const occ_screen *screen, const occ_vertex *p, float *u, float *v)
 {
-    const float *n = screen->row[2];
-    float w = OCC_PLANE_AT(n[0], n[1], n[2], screen->w, p[0], p[1], p[2]);
-    bool clear = w > screen->least * OCC_NORM1(p[0], p[1], p[2]);
-    for (uint32_t r = 0; r < 2; r++) {
-        n = screen->row[r];
-        float at = clear ? (n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / w : NAN;
-        *(r ? &seen->v[8] : &seen->u[8]) = at;
-    }
+    const float(*row)[3] = screen->row;
+    float w = OCC_PLANE_AT(row[2][0], row[2][1], row[2][2], screen->w * p->w, p->x, p->y, p->z);
+    bool clear = w > screen->least * OCC_NORM1(p->x, p->y, p->z);
+    *u = clear ? (row[0][0] * p->x + row[0][1] * p->y + row[0][2] * p->z) / w : NAN;
+    *v = clear ? (row[1][0] * p->x + row[1][1] * p->y + row[1][2] * p->z) / w : NAN;
+}
+
+static inline void project_center(const occ_screen *screen, const float p[3], occ_projection *seen)
+{
+    occ_vertex center = {p[0], p[1], p[2], 1.0f, 0.0f};
+    project_vertex(screen, &center, &seen->u[8], &seen->v[8]);
 }
 
 static void project_corners(const occ_screen *screen, const occ_relative_box *box,
@@ -62,36 +66,76 @@ static inline uint32_t present(uint32_t bits, uint32_t count)
     return count >= OCC_SHADOW_LANES ? bits : bits & ((1u << count) - 1u);
 }
 
-// Occluders of a block that may touch the box, by where they are on the screen.
-static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen,
-                                      float key)
+// Where sixteen occluders are on the screen.
+typedef struct rect_lanes {
+    const float *left, *right, *low, *high;
+} rect_lanes;
+
+static inline rect_lanes rects_of_block(const occ_rect_block *block)
+{
+    return (rect_lanes){block->min[0], block->max[0], block->min[1], block->max[1]};
+}
+
+// Those that may touch the box.
+static inline uint32_t near_box(const rect_lanes *rects, const occ_projection *seen)
 {
     uint32_t bits = 0;
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        uint32_t near = not_above_wide(load_wide(block->min[0] + g), splat_wide(seen->max[0]));
-        near &= not_above_wide(splat_wide(seen->min[0]), load_wide(block->max[0] + g));
-        near &= not_above_wide(load_wide(block->min[1] + g), splat_wide(seen->max[1]));
-        near &= not_above_wide(splat_wide(seen->min[1]), load_wide(block->max[1] + g));
-        near &= not_above_wide(load_wide(block->key + g), splat_wide(key));
+        uint32_t near = not_above_wide(load_wide(rects->left + g), splat_wide(seen->max[0]));
+        near &= not_above_wide(splat_wide(seen->min[0]), load_wide(rects->right + g));
+        near &= not_above_wide(load_wide(rects->low + g), splat_wide(seen->max[1]));
+        near &= not_above_wide(splat_wide(seen->min[1]), load_wide(rects->high + g));
         bits |= near << g;
     }
     return bits;
 }
 
-// Those that may hold point i.
-static inline uint32_t block_near_point(const occ_rect_block *block, const occ_projection *seen,
-                                        uint32_t i)
+// Those of a block that are no farther than `key`.
+static inline uint32_t block_before(const occ_rect_block *block, float key)
 {
     uint32_t bits = 0;
+    for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH)
+        bits |= not_above_wide(load_wide(block->key + g), splat_wide(key)) << g;
+    return bits;
+}
+
+// Those that may hold a point there.
+static inline uint32_t near_point(const rect_lanes *rects, float at_u, float at_v)
+{
+    uint32_t bits = 0;
+    fwide u = splat_wide(at_u), v = splat_wide(at_v);
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        fwide u = splat_wide(seen->u[i]), v = splat_wide(seen->v[i]);
-        uint32_t near = not_above_wide(load_wide(block->min[0] + g), u);
-        near &= not_above_wide(u, load_wide(block->max[0] + g));
-        near &= not_above_wide(load_wide(block->min[1] + g), v);
-        near &= not_above_wide(v, load_wide(block->max[1] + g));
+        uint32_t near = not_above_wide(load_wide(rects->left + g), u);
+        near &= not_above_wide(u, load_wide(rects->right + g));
+        near &= not_above_wide(load_wide(rects->low + g), v);
+        near &= not_above_wide(v, load_wide(rects->high + g));
         bits |= near << g;
     }
     return bits;
+}
+
+// Occluders gathered from blocks, side by side.
+#define LISTED_MOST 256u
+
+typedef struct rect_list {
+    float left[LISTED_MOST + OCC_SHADOW_LANES], right[LISTED_MOST + OCC_SHADOW_LANES];
+    float low[LISTED_MOST + OCC_SHADOW_LANES], high[LISTED_MOST + OCC_SHADOW_LANES];
+    uint32_t count;
+} rect_list;
+
+static inline rect_lanes rects_of_list(const rect_list *list, uint32_t i)
+{
+    return (rect_lanes){list->left + i, list->right + i, list->low + i, list->high + i};
+}
+
+// Appends the lanes of a block that `lanes` names; there is room for a block.
+static inline void append_rects(rect_list *list, const occ_rect_block *block, uint32_t lanes)
+{
+    const float *from[4] = {block->min[0], block->max[0], block->min[1], block->max[1]};
+    float *to[4] = {list->left, list->right, list->low, list->high};
+    for (uint32_t j = 0; j < 4; j++)
+        compress_sixteen(to[j] + list->count, from[j], lanes);
+    list->count += (uint32_t)__builtin_popcount(lanes);
 }
 
 // As occ_point_in_frustum(), for the corners.

@@ -6,8 +6,7 @@
 #include "lanes_fusion.h"
 #include "lanes_screen.h"
 
-#define ASKED_AT_ONCE 4u // of those that hold a box's center
-#define NODE_GROUPS   (OCC_NODE_LANES / OCC_NODE_WIDTH)
+#define NODE_GROUPS (OCC_NODE_LANES / OCC_NODE_WIDTH)
 
 static inline contact meet_asked(const occ_question *question, const occ_wide_shadow *shadow)
 {
@@ -19,26 +18,18 @@ static inline bool is_own(const occ_question *question, const occ_shadow_set *se
     return set->shadows[i].owner - question->first < question->rows;
 }
 
-// What holds the center may hide the box alone. Leaves those that do not in `holders`, a word per
-// block. Whether one does.
-static inline bool ask_center(const occ_question *question, const occ_shadow_set *set,
-                              uint32_t blocks, uint16_t *holders, bool *held)
+// What holds the center may hide the box alone. Whether one does.
+static inline bool ask_center(const occ_question *question, const occ_shadow_set *set, bool *held)
 {
     const float *t = question->box->t;
-    uint32_t asked = 0;
-    for (uint32_t b = 0; b < blocks; b++) {
-        uint32_t first = b * OCC_SHADOW_LANES;
-        uint32_t near = block_near_point(&set->rects[b], question->seen, 8);
-        holders[b] = 0;
+    for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = near_point(&rects, question->seen->u[8], question->seen->v[8]);
         for (near = present(near, set->count - first); near; near &= near - 1u) {
-            uint32_t lane = (uint32_t)__builtin_ctz(near), i = first + lane;
+            uint32_t i = first + (uint32_t)__builtin_ctz(near);
             if (!holds_point(&set->wide[i], t[0], t[1], t[2], question->box->e)) continue;
             if (is_own(question, set, i)) continue;
             *held = true;
-            if (asked++ >= ASKED_AT_ONCE) {
-                holders[b] |= (uint16_t)(1u << lane);
-                continue;
-            }
             contact met = meet_asked(question, &set->wide[i]);
             if (!met.apart && !met.cutting) return true;
         }
@@ -46,50 +37,138 @@ static inline bool ask_center(const occ_question *question, const occ_shadow_set
     return false;
 }
 
-// Whether any holds corner k. Keeps in `holders` what does.
-static inline bool ask_corner(const occ_question *question, const occ_shadow_set *set,
-                              uint32_t blocks, uint16_t *holders, uint32_t k)
+// The occluders that may touch a box, gathered from all blocks. Those beyond the last are left out,
+// which can only show more.
+typedef struct near_list {
+    rect_list rects;
+    uint16_t planes[LISTED_MOST]; // what cuts the box, once that is known
+    uint8_t state[LISTED_MOST];   // NEAR_*
+    uint32_t index[LISTED_MOST];
+} near_list;
+
+#define NEAR_UNKNOWN  0u
+#define NEAR_TOUCHING 1u // it may hide the box together with others
+#define NEAR_USELESS  2u // apart, own, or the box is not behind its faces
+
+static inline void list_near(near_list *list, const occ_question *question,
+                             const occ_shadow_set *set)
 {
-    const occ_projection *seen = question->seen;
-    bool any = false;
-    for (uint32_t b = 0; b < blocks; b++) {
-        if (any && !holders[b]) continue;
-        uint32_t first = b * OCC_SHADOW_LANES, held = 0;
-        uint32_t near = present(block_near_point(&set->rects[b], seen, k), set->count - first);
-        if (any) near &= holders[b];
+    uint32_t n = 0;
+    list->rects.count = 0;
+    for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = present(near_box(&rects, question->seen), set->count - first);
+        if (n + OCC_SHADOW_LANES > LISTED_MOST) break;
+        append_rects(&list->rects, &set->rects[b], near);
         for (; near; near &= near - 1u) {
-            uint32_t lane = (uint32_t)__builtin_ctz(near), i = first + lane;
-            if (!holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e))
-                continue;
-            if (is_own(question, set, i)) continue;
-            held |= 1u << lane;
-            if (!any) near &= holders[b] | 1u << lane;
-            any = true;
+            list->state[n] = NEAR_UNKNOWN;
+            list->index[n++] = first + (uint32_t)__builtin_ctz(near);
         }
-        holders[b] &= (uint16_t)held;
     }
-    return any;
 }
 
-static inline bool ask_together(const occ_question *question, const occ_shadow_set *set,
-                                uint32_t blocks, const occ_eye *eye)
+// Whether any of the list holds corner k.
+static inline bool ask_corner(const occ_question *question, const occ_shadow_set *set,
+                              const near_list *list, uint32_t k)
 {
-    fusion_lanes fusion;
-    start_fusion(&fusion);
-    for (uint32_t b = 0; b < blocks; b++) {
-        uint32_t first = b * OCC_SHADOW_LANES;
-        uint32_t near = block_near_box(&set->rects[b], question->seen, INFINITY);
-        for (near = present(near, set->count - first); near; near &= near - 1u) {
-            uint32_t i = first + (uint32_t)__builtin_ctz(near);
-            contact met = meet_asked(question, &set->wide[i]);
-            if (met.apart || is_own(question, set, i)) continue;
-            if (!met.cutting) return true;
-            // What its face cuts it may hide in part, but not together with others.
-            if (!(met.cutting >> OCC_FACE_LANE)) add_candidate(&fusion, &set->wide[i], &met);
+    const occ_projection *seen = question->seen;
+    for (uint32_t first = 0; first < list->rects.count; first += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(&list->rects, first);
+        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
+        for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
+            uint32_t i = list->index[first + (uint32_t)__builtin_ctz(near)];
+            if (holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
+                !is_own(question, set, i))
+                return true;
         }
     }
-    return fusion.candidates && see_outline(&fusion, question->box, eye, false) &&
-           covers(&fusion, eye, question->frustum, false);
+    return false;
+}
+
+// The same of all occluders.
+static inline bool ask_first_corner(const occ_question *question, const occ_shadow_set *set,
+                                    uint32_t k)
+{
+    const occ_projection *seen = question->seen;
+    for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
+        for (near = present(near, set->count - first); near; near &= near - 1u) {
+            uint32_t i = first + (uint32_t)__builtin_ctz(near);
+            if (holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
+                !is_own(question, set, i))
+                return true;
+        }
+    }
+    return false;
+}
+
+// Whether a corner in the picture is in no shadow.
+static inline bool corner_shows(const occ_question *question, const occ_shadow_set *set,
+                                uint32_t shown, near_list *list)
+{
+    uint32_t k = *question->hint;
+    if ((shown >> k & 1u) && !ask_first_corner(question, set, k)) return true;
+    list_near(list, question, set);
+    for (uint32_t i = 1; i < 8; i++) {
+        k = (i + *question->hint) & 7u;
+        if (!(shown >> k & 1u) || ask_corner(question, set, list, k)) continue;
+        *question->hint = k;
+        return true;
+    }
+    return false;
+}
+
+// What is known of entry n, which is found out when it is first asked for.
+static inline bool is_candidate(near_list *list, uint32_t n, const occ_question *question,
+                                const occ_shadow_set *set)
+{
+    if (list->state[n] == NEAR_UNKNOWN) {
+        uint32_t i = list->index[n];
+        contact met = meet_asked(question, &set->wide[i]);
+        bool useless = met.apart || met.cutting >> OCC_FACE_LANE || is_own(question, set, i);
+        list->state[n] = useless ? NEAR_USELESS : NEAR_TOUCHING;
+        list->planes[n] = (uint16_t)met.cutting;
+    }
+    return list->state[n] == NEAR_TOUCHING;
+}
+
+// The first entry that holds the middle of a piece, or their number.
+static inline uint32_t find_near(near_list *list, const occ_vertex *middle,
+                                 const occ_question *question, const occ_shadow_set *set,
+                                 const occ_screen *screen)
+{
+    float u, v;
+    project_vertex(screen, middle, &u, &v);
+    for (uint32_t first = 0; first < list->rects.count; first += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(&list->rects, first);
+        uint32_t near = near_point(&rects, u, v);
+        for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
+            uint32_t n = first + (uint32_t)__builtin_ctz(near);
+            if (!is_candidate(list, n, question, set)) continue;
+            if (holds(&set->wide[list->index[n]], list->planes[n], middle)) return n;
+        }
+    }
+    return list->rects.count;
+}
+
+// As covers(), with what of the list is needed.
+static inline bool covers_near(near_list *list, const occ_question *question,
+                               const occ_shadow_set *set, const occ_eye *eye,
+                               const occ_screen *screen)
+{
+    fusion_lanes fusion;
+    if (!see_outline(&fusion, question->box, eye, false)) return false;
+    clip(&fusion, eye, question->frustum);
+    for (uint32_t split = 0; fusion.depth; split++) {
+        occ_vertex middle = middle_of(&fusion.stack[fusion.depth - 1]);
+        uint32_t n = find_near(list, &middle, question, set, screen);
+        if (n == list->rects.count || split == eye->splits ||
+            !subtract(&fusion, &set->wide[list->index[n]], list->planes[n])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // Points first: what no occluder holds shows. (That a point is inside the box, or on its far side,
@@ -97,32 +176,18 @@ static inline bool ask_together(const occ_question *question, const occ_shadow_s
 static bool hide(const occ_question *question, const occ_shadow_set *set, const occ_eye *eye,
                  const occ_screen *screen)
 {
-    occ_projection *seen = question->seen;
-    uint16_t holders[OCC_MOST_SHADOW_BLOCKS];
     const occ_relative_box *box = question->box;
-    uint32_t blocks = (set->count + OCC_SHADOW_LANES - 1u) / OCC_SHADOW_LANES;
-    if (blocks > OCC_MOST_SHADOW_BLOCKS) blocks = OCC_MOST_SHADOW_BLOCKS;
+    near_list list;
     bool held = false;
-    project_center(screen, box->t, seen);
-    if (ask_center(question, set, blocks, holders, &held)) return true;
+    project_center(screen, box->t, question->seen);
+    if (ask_center(question, set, &held)) return true;
+    if (!question->fuse) return false;
     if (!held && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, question->frustum))
         return false;
-    project_corners(screen, box, seen);
-    uint32_t shown = corners_in_frustum(seen, eye, question->frustum);
-    for (uint32_t i = 0; i < 8; i++) {
-        uint32_t k = (i + *question->hint) & 7u;
-        if (!(shown >> k & 1u) || ask_corner(question, set, blocks, holders, k)) continue;
-        *question->hint = k;
-        return false;
-    }
-    for (uint32_t b = 0; b < blocks; b++) {
-        for (uint32_t left = holders[b]; left; left &= left - 1u) {
-            uint32_t i = b * OCC_SHADOW_LANES + (uint32_t)__builtin_ctz(left);
-            contact met = meet_asked(question, &set->wide[i]);
-            if (!met.apart && !met.cutting) return true;
-        }
-    }
-    return question->fuse && ask_together(question, set, blocks, eye);
+    project_corners(screen, box, question->seen);
+    uint32_t shown = corners_in_frustum(question->seen, eye, question->frustum);
+    if (corner_shows(question, set, shown, &list)) return false;
+    return covers_near(&list, question, set, eye, screen);
 }
 
 static bool gather(const occ_question *question, const occ_shadow_set *set, uint32_t *list,
@@ -130,7 +195,9 @@ static bool gather(const occ_question *question, const occ_shadow_set *set, uint
 {
     uint32_t listed = 0;
     for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_box(&set->rects[b], question->seen, question->key);
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = near_box(&rects, question->seen);
+        near &= block_before(&set->rects[b], question->key);
         for (near = present(near, set->count - i); near; near &= near - 1u) {
             uint32_t s = i + (uint32_t)__builtin_ctz(near);
             contact met = meet_asked(question, &set->wide[s]);

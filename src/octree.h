@@ -3,7 +3,7 @@
 // are to lie and which ranges of that order its nodes are.
 //
 // An item belongs to the cell that holds its bounds' middle, on the deepest level whose cells are
-// at least as wide as the bounds (a loose octree: Ulrich, Game Programming Gems 1, 2000). Its key
+// at least half as wide as the bounds (a loose octree: Ulrich, Game Programming Gems 1, 2000). Its key
 // is that cell's Morton code (Morton 1966) followed by the level:
 //
 //     bit 61                      5 4      0

@@ -137,15 +137,35 @@ static inline fnode select_node(inode truth, fnode x, fnode y)
     return (fnode)(((inode)x & truth) | ((inode)y & ~truth));
 }
 
+// The largest of the lanes that `lanes` names (at least one).
+static inline float largest_of_wide(fwide x, uint32_t lanes)
+{
+#if OCC_WIDTH == 16
+    return _mm512_mask_reduce_max_ps((__mmask16)lanes, (__m512)x);
+#else
+    float most = -INFINITY;
+    for (uint32_t l = 0; l < OCC_WIDTH; l++)
+        if ((lanes >> l & 1u) && x[l] > most) most = x[l];
+    return most;
+#endif
+}
+
 // The largest of the first `count` lanes (at least one) of positive numbers.
 static inline float largest_of_node(fnode x, uint32_t count)
 {
+#if OCC_WIDTH == 16
+    __m256 lanes = _mm256_maskz_mov_ps((__mmask8)((1u << count) - 1u), (__m256)x);
+    __m128 most = _mm_max_ps(_mm256_castps256_ps128(lanes), _mm256_extractf128_ps(lanes, 1));
+    most = _mm_max_ps(most, _mm_movehl_ps(most, most));
+    return _mm_cvtss_f32(_mm_max_ss(most, _mm_movehdup_ps(most)));
+#else
     float lane[OCC_NODE_WIDTH], most;
     store_node(lane, x);
     most = lane[0];
     for (uint32_t l = 1; l < count; l++)
         most = lane[l] > most ? lane[l] : most;
     return most;
+#endif
 }
 
 // The least and the largest of eight floats.
@@ -165,6 +185,17 @@ static inline float largest_of_eight(const float *x)
         a[i] = x[i] > x[i + 4] ? x[i] : x[i + 4];
     float b = a[0] > a[1] ? a[0] : a[1], c = a[2] > a[3] ? a[2] : a[3];
     return b > c ? b : c;
+}
+
+// Packs those of sixteen floats that `lanes` names. May write up to sixteen.
+static inline void compress_sixteen(float *to, const float *from, uint32_t lanes)
+{
+#if OCC_WIDTH == 16
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)lanes, _mm512_loadu_ps(from)));
+#else
+    for (; lanes; lanes &= lanes - 1u)
+        *to++ = from[__builtin_ctz(lanes)];
+#endif
 }
 
 #endif
