@@ -44,6 +44,10 @@ for setting in "$@"; do
     errors=$(sed -n 's/^frames=.* false_hidden=\([0-9]*\) .* missed_pct=\([0-9.]*\).*/\2 | \1/p' "$work/log")
     ms=$(median "$work/$number.median_ms")
     ratio=$(echo "$ms $(median "$work/1.median_ms")" | awk '{ printf "%.2f", $1 / $2 }')
-    case $setting in *' '*) setting=${setting#* } ;; esac
-    echo "| $setting | $ms | $ratio | $(median "$work/$number.max_ms") | $errors |"
+    # A program is named where it is not the first one, options where there are any.
+    program=${setting%% *}
+    name=
+    if [ "$program" != "${1%% *}" ] || [ "$program" = "$setting" ]; then name="${program##*/} "; fi
+    case $setting in *' '*) name="$name${setting#* } " ;; esac
+    echo "| $name| $ms | $ratio | $(median "$work/$number.max_ms") | $errors |"
 done
