@@ -163,7 +163,8 @@ void kit_model_edit(kit_model *model)
         for (uint32_t n = 1 + kit_below(&model->random, 14); n > 0; n--)
             remove_object(model);
     } else if (what < 82) {
-        add_occluder(model);
+        for (uint32_t n = 1 + kit_below(&model->random, 8); n > 0; n--)
+            add_occluder(model);
     } else if (what < 92) {
         move_occluder(model);
     } else {

@@ -112,8 +112,8 @@ static void edit_and_compare(int seed, void (*compare)(kit_model *model, uint32_
         most_attached = attached > most_attached ? attached : most_attached;
         most_free = nobodys > most_free ? nobodys : most_free;
     }
-    ck_assert_uint_ge(most_attached, 5 * model->owned);
-    ck_assert_uint_ge(most_free, 5 * (4 - model->owned));
+    ck_assert_uint_ge(most_attached, 10 * model->owned);
+    ck_assert_uint_ge(most_free, 10 * (4 - model->owned));
     ck_assert_uint_gt(commits, EDITS / 50);
     ck_assert_uint_gt(model->scene->boxes.count, 20);
     kit_model_destroy(model);
