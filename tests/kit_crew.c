@@ -133,7 +133,7 @@ uint32_t kit_move_within_cells(occ_scene *scene, const occ_object *objects, uint
     for (uint32_t i = 0; i < count; i += 3) {
         occ_box old = box_of(scene, objects[i]), box = old;
         for (int j = 0; j < 3; j++)
-            box.center[j] += kit_between(random, -8, 8);
+            box.center[j] += kit_between(random, -3, 3);
         if (!is_inner(&all, &old) || !is_inner(&all, &box)) continue;
         if (key_of(scene, &box) != key_of(scene, &old)) continue;
         ck_assert_int_eq(occ_scene_move(scene, objects[i], &box), OCC_SUCCESS);
