@@ -244,9 +244,9 @@ START_TEST(what_a_hard_world_hides_is_hidden_by_those_named)
             tear_down(&w);
         }
     for (int k = 0; k < KNOBS; k++) {
-        ck_assert_uint_gt(counts[k].by_one, 100);
-        ck_assert_uint_gt(counts[k].outside, 100);
-        if (k < 2) ck_assert_uint_gt(counts[k].by_several, 100);
+        ck_assert_uint_gt(counts[k].by_one, WORLD_SHARE(1000));
+        ck_assert_uint_gt(counts[k].outside, WORLD_SHARE(1000));
+        if (k < 2) ck_assert_uint_gt(counts[k].by_several, WORLD_SHARE(200));
         if (k >= 2) ck_assert_uint_eq(counts[k].by_several, 0);
     }
     occ_view_destroy(plain);
@@ -336,9 +336,9 @@ START_TEST(what_a_random_world_hides_is_hidden_by_those_named)
         check_both(&w, plain, openmp, &counts);
         tear_down(&w);
     }
-    ck_assert_uint_gt(fallen, 100);
-    ck_assert_uint_gt(counts.by_one, 100);
-    ck_assert_uint_gt(counts.by_several, 100);
+    ck_assert_uint_gt(fallen, WORLD_SHARE(100));
+    ck_assert_uint_gt(counts.by_one, WORLD_SHARE(100));
+    ck_assert_uint_gt(counts.by_several, WORLD_SHARE(100));
     occ_view_destroy(plain);
     occ_view_destroy(openmp);
 }
@@ -382,8 +382,8 @@ START_TEST(what_a_scene_hides_is_hidden_by_those_named)
         kit_cull(openmp, w.scene, &w.camera, &knobs);
         check_both(&w, plain, openmp, &counts);
     }
-    ck_assert_uint_gt(counts.by_one, 1000);
-    ck_assert_uint_gt(counts.by_several, 20);
+    ck_assert_uint_gt(counts.by_one, WORLD_SHARE(1000));
+    ck_assert_uint_gt(counts.by_several, WORLD_SHARE(20));
     tear_down(&w);
     free(occluders);
     obs_free(&file);
