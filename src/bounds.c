@@ -42,14 +42,13 @@ void occ_bounds_of_array(const occ_box *boxes, const uint32_t *rows, uint32_t fi
     occ_blocks_choose()->bounds(from, count, block);
 }
 
-void occ_reaches_of_array(const occ_box *boxes, const uint32_t *rows, uint32_t count,
-                          float *reaches)
+void occ_reaches_of_array(const occ_box *boxes, uint32_t count, float *reaches)
 {
     picked_columns picked;
     occ_block_columns from;
     for (uint32_t i = 0; i < count; i += OCC_BLOCK) {
         uint32_t here = count - i < OCC_BLOCK ? count - i : OCC_BLOCK;
-        pick(boxes, rows + i, 0, here, picked, from);
+        pick(boxes, NULL, i, here, picked, from);
         occ_blocks_choose()->reaches(from, here, reaches + i);
     }
 }

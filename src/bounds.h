@@ -15,8 +15,7 @@ void occ_bounds_of_rows(const occ_boxes *boxes, const uint32_t *rows, uint32_t f
 void occ_bounds_of_array(const occ_box *boxes, const uint32_t *rows, uint32_t first, uint32_t count,
                          occ_block *block);
 
-// The reaches (occ_occluder_reach()) of the boxes of an array that `rows` lists.
-void occ_reaches_of_array(const occ_box *boxes, const uint32_t *rows, uint32_t count,
-                          float *reaches);
+// The reaches (occ_occluder_reach()) of the boxes of an array.
+void occ_reaches_of_array(const occ_box *boxes, uint32_t count, float *reaches);
 
 #endif

@@ -138,11 +138,13 @@ static occ_result commit_objects(occ_scene *scene, occ_team *team)
 // Removes the occluders whose owners are gone.
 static void drop_orphans(occ_scene *scene)
 {
-    for (uint32_t s = 0; s < scene->occluders.count; s++) {
-        uint32_t owner = scene->occluders.value[s];
-        if (!occ_slots_is_taken(&scene->occluders, s) || owner == OCC_NO_SLOT) continue;
+    occ_occluder_rows *rows = &scene->occluder_rows;
+    for (uint32_t row = 0; row < rows->count; row++) {
+        uint32_t slot = rows->slot_of[row], owner = rows->owner_of[row];
+        if (slot == OCC_NO_SLOT || owner == OCC_NO_SLOT) continue;
         if (occ_slots_is_taken(&scene->objects, owner)) continue;
-        occ_slots_release(&scene->occluders, s);
+        rows->slot_of[row] = OCC_NO_SLOT;
+        occ_slots_release(&scene->occluders, slot);
         scene->occluders_reordered = true;
     }
     scene->owners_removed = false;
@@ -177,8 +179,8 @@ occ_result occ_scene_commit(occ_scene *scene)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     if (occ_scene_is_committed(scene)) return OCC_SUCCESS;
-    uint32_t rows = scene->boxes.count, slots = scene->occluders.count;
-    uint32_t parts = occ_parts_of(rows > slots ? rows : slots);
+    uint32_t objects = scene->boxes.count, occluders = scene->occluder_rows.count;
+    uint32_t parts = occ_parts_of(objects > occluders ? objects : occluders);
     commit_job job = {scene, OCC_SUCCESS};
     occ_with_team(scene->threads < parts ? scene->threads : parts, commit_all, &job);
     return job.result;

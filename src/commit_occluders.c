@@ -13,14 +13,14 @@ typedef struct reach_job {
     uint32_t parts;
 } reach_job;
 
-// The largest reach among occluders [first, end) of the order.
+// The largest reach among the occluders in rows [first, end).
 static float largest_reach(const occ_scene *scene, uint32_t first, uint32_t end)
 {
-    const uint32_t *order = scene->occluder_order.data;
+    const occ_box *boxes = occ_scene_occluder_boxes(scene);
     float most = 0.0f, found[OCC_BLOCK];
     for (uint32_t i = first; i < end; i += OCC_BLOCK) {
         uint32_t count = end - i < OCC_BLOCK ? end - i : OCC_BLOCK;
-        occ_reaches_of_array(occ_scene_occluder_boxes(scene), order + i, count, found);
+        occ_reaches_of_array(boxes + i, count, found);
         for (uint32_t k = 0; k < count; k++)
             most = found[k] > most ? found[k] : most;
     }
@@ -61,7 +61,7 @@ static void refit_reach(occ_scene *scene, occ_team *team)
     const occ_octree *tree = &scene->occluder_tree;
     const occ_node *nodes = occ_octree_nodes(tree);
     float *reach = scene->reach.data;
-    reach_job job = {scene, occ_parts_of(scene->occluder_order.count)};
+    reach_job job = {scene, occ_parts_of(scene->occluder_rows.count)};
     occ_do_parts(team, job.parts, reach_of_free, &job);
     for (uint32_t n = tree->nodes.count; n-- > 0;)
         for (uint32_t c = 0; c < nodes[n].children; c++)
@@ -75,15 +75,18 @@ static void refit_reach(occ_scene *scene, occ_team *team)
             attached[n].reach = fmaxf(attached[n].reach, attached[nodes[n].child + c].reach);
 }
 
-// Where the occluders of each row begin in the order, and where those of the last end.
+// --- sorting -------------------------------------------------------------------------------------
+
+// Where the occluders of each of the objects' rows begin, and where those of the last end.
 static void count_attached(const occ_scene *scene, uint32_t *place)
 {
-    const occ_slots *occluders = &scene->occluders;
+    const occ_occluder_rows *occluders = &scene->occluder_rows;
     uint32_t rows = scene->boxes.count, sum = 0;
     memset(place, 0, ((size_t)rows + 1) * sizeof *place);
-    for (uint32_t s = 0; s < occluders->count; s++)
-        if (occ_slots_is_taken(occluders, s) && occluders->value[s] != OCC_NO_SLOT)
-            place[scene->objects.value[occluders->value[s]]]++;
+    for (uint32_t i = 0; i < occluders->count; i++) {
+        if (occluders->slot_of[i] == OCC_NO_SLOT || occluders->owner_of[i] == OCC_NO_SLOT) continue;
+        place[occ_scene_owner_row(scene, i)]++;
+    }
     for (uint32_t row = 0; row <= rows; row++) {
         uint32_t here = place[row];
         place[row] = sum;
@@ -91,62 +94,53 @@ static void count_attached(const occ_scene *scene, uint32_t *place)
     }
 }
 
-// Sorts the attached occluders by their owners' rows, those of one owner by slot, and lists the
-// free ones after them.
-static void list_occluders(occ_scene *scene, uint32_t *place)
+// Lists the attached occluders by their owners' rows, those of one owner by slot, and behind them
+// the free ones by slot.
+static void list_occluders(const occ_scene *scene, uint32_t *place, uint32_t *order)
 {
-    const occ_slots *occluders = &scene->occluders;
-    const occ_node *nodes = occ_octree_nodes(&scene->object_tree);
-    occ_attached *attached = scene->attached.data;
-    count_attached(scene, place);
-    uint32_t *order = scene->occluder_order.data, free_place = place[scene->boxes.count];
-    scene->attached_count = free_place;
-    for (uint32_t n = 0; n < scene->object_tree.nodes.count; n++) {
-        attached[n].first = place[nodes[n].first];
-        attached[n].count = place[nodes[n].first + nodes[n].count] - attached[n].first;
-    }
-    for (uint32_t s = 0; s < occluders->count; s++) {
-        if (!occ_slots_is_taken(occluders, s)) continue;
-        uint32_t owner = occluders->value[s];
-        order[owner == OCC_NO_SLOT ? free_place++ : place[scene->objects.value[owner]]++] = s;
+    const occ_slots *slots = &scene->occluders;
+    uint32_t next_free = place[scene->boxes.count];
+    for (uint32_t s = 0; s < slots->count; s++) {
+        if (!occ_slots_is_taken(slots, s)) continue;
+        uint32_t row = slots->value[s], owner = occ_scene_owner_row(scene, row);
+        order[owner == OCC_NO_SLOT ? next_free++ : place[owner]++] = row;
     }
 }
 
-static occ_result sort_attached(occ_scene *scene)
+// Fills `order` and what is attached to each node. How many are attached goes to `count`.
+static occ_result sort_attached(occ_scene *scene, uint32_t *order, uint32_t *count)
 {
-    uint32_t nodes = scene->object_tree.nodes.count;
-    size_t bytes = ((size_t)scene->boxes.count + 1) * sizeof(uint32_t);
+    uint32_t nodes = scene->object_tree.nodes.count, rows = scene->boxes.count;
+    size_t bytes = ((size_t)rows + 1) * sizeof(uint32_t);
     uint32_t *place = occ_alloc(&scene->hooks, bytes);
     occ_result result = place ? OCC_SUCCESS : OCC_ERROR_OUT_OF_MEMORY;
-    if (!result) {
-        result = occ_array_reserve(&scene->hooks, &scene->occluder_order, scene->occluders.taken);
-    }
     if (!result) result = occ_array_reserve(&scene->hooks, &scene->attached, nodes);
     if (!result) {
+        count_attached(scene, place);
+        *count = place[rows];
         scene->attached.count = nodes;
-        scene->occluder_order.count = scene->occluders.taken;
-        list_occluders(scene, place);
+        occ_attached *attached = scene->attached.data;
+        for (uint32_t n = 0; n < nodes; n++) {
+            const occ_node *node = &occ_octree_nodes(&scene->object_tree)[n];
+            attached[n].first = place[node->first];
+            attached[n].count = place[node->first + node->count] - attached[n].first;
+        }
+        list_occluders(scene, place, order);
     }
     occ_free(&scene->hooks, place, bytes);
     return result;
 }
 
-// The free occluders: their places in the order, or NULL if there are none.
-static uint32_t *free_order(const occ_scene *scene)
+// Builds the tree of `count` free occluders, which `order` lists.
+static occ_result sort_free(occ_scene *scene, occ_team *team, uint32_t *order, uint32_t count)
 {
-    uint32_t *order = scene->occluder_order.data;
-    return order ? order + scene->attached_count : NULL;
-}
-
-static occ_result sort_free(occ_scene *scene, occ_team *team, const occ_tree_items *items)
-{
-    uint32_t count = scene->occluder_order.count - scene->attached_count;
-    uint32_t slots = scene->occluders.count, *order = free_order(scene);
-    size_t bytes = occ_octree_room(slots, count, team);
+    occ_tree_items items = occ_scene_occluder_items(scene, 0);
+    uint32_t rows = scene->occluder_rows.count;
+    size_t bytes = occ_octree_room(rows, count, team);
     void *room = occ_alloc(&scene->hooks, bytes);
     if (bytes && !room) return OCC_ERROR_OUT_OF_MEMORY;
-    occ_root root = occ_octree_root(items, order, count, team);
-    occ_result result = occ_octree_build(&scene->hooks, &scene->occluder_tree, items, slots, &root,
+    occ_root root = occ_octree_root(&items, order, count, team);
+    occ_result result = occ_octree_build(&scene->hooks, &scene->occluder_tree, &items, rows, &root,
                                          order, count, room, team);
     occ_free(&scene->hooks, room, bytes);
     if (result) return result;
@@ -156,22 +150,48 @@ static occ_result sort_free(occ_scene *scene, occ_team *team, const occ_tree_ite
     return result;
 }
 
+// Puts the occluders in their order. What is half done when memory runs out is done anew by the
+// next commit: the rows change last.
+static occ_result sort_occluders(occ_scene *scene, occ_team *team)
+{
+    uint32_t count = scene->occluders.taken, attached = 0;
+    size_t bytes = (size_t)count * sizeof(uint32_t);
+    uint32_t *order = occ_alloc(&scene->hooks, bytes);
+    if (count && !order) return OCC_ERROR_OUT_OF_MEMORY;
+    occ_result result = sort_attached(scene, order, &attached);
+    if (!result) {
+        result = sort_free(scene, team, order ? order + attached : NULL, count - attached);
+    }
+    if (!result) {
+        result = occ_occluder_rows_gather(&scene->hooks, &scene->occluder_rows, &scene->occluders,
+                                          order, count, team);
+    }
+    if (!result) {
+        scene->attached_count = attached;
+        occ_slots_recycle(&scene->occluders);
+    }
+    occ_free(&scene->hooks, order, bytes);
+    return result;
+}
+
+// Whether moves have left the free occluders their root cube.
+static bool keeps_root(const occ_scene *scene, occ_team *team)
+{
+    occ_tree_items items = occ_scene_occluder_items(scene, scene->attached_count);
+    occ_root root = occ_octree_root(&items, NULL, occ_scene_free_count(scene), team);
+    return occ_root_equals(&root, &scene->occluder_tree.root);
+}
+
 occ_result occ_commit_occluders(occ_scene *scene, occ_team *team)
 {
     if (!scene->occluders_reordered && !scene->occluders_moved) return OCC_SUCCESS;
-    occ_tree_items items = occ_scene_occluder_items(scene);
-    if (!scene->occluders_reordered) {
-        uint32_t count = scene->occluder_order.count - scene->attached_count;
-        occ_root root = occ_octree_root(&items, free_order(scene), count, team);
-        scene->occluders_reordered = !occ_root_equals(&root, &scene->occluder_tree.root);
-    }
+    if (!scene->occluders_reordered) scene->occluders_reordered = !keeps_root(scene, team);
     if (scene->occluders_reordered) {
-        occ_result result = sort_attached(scene);
-        if (!result) result = sort_free(scene, team, &items);
+        occ_result result = sort_occluders(scene, team);
         if (result) return result;
-        occ_slots_recycle(&scene->occluders);
     }
-    occ_octree_refit(&scene->occluder_tree, &items, free_order(scene), NULL, team);
+    occ_tree_items items = occ_scene_occluder_items(scene, scene->attached_count);
+    occ_octree_refit(&scene->occluder_tree, &items, NULL, NULL, team);
     refit_reach(scene, team);
     return OCC_SUCCESS;
 }

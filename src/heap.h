@@ -8,7 +8,7 @@
 // A node or an occluder that is still to be looked at.
 typedef struct occ_walk_entry {
     float key;      // how near it is; nothing below a node is nearer
-    uint32_t index; // of the node, or slot of the occluder
+    uint32_t index; // of the node, or row of the occluder
     uint32_t what;  // OCC_WALK_*, and the frustum planes that may cut it
 } occ_walk_entry;
 

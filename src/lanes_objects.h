@@ -104,7 +104,7 @@ static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c,
 {
     uint32_t s = candidates->list[c];
     return holds_point(&candidates->set->wide[s], seen->x[k], seen->y[k], seen->z[k], e) &&
-           candidates->set->shadows[s].owner != row;
+           candidates->set->wide[s].owner != row;
 }
 
 static inline bool corner_is_held(const rect_list *list, const occ_candidates *candidates,
@@ -151,7 +151,7 @@ static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row
     start_fusion(&fusion);
     for (uint32_t i = 0; i < candidates->count; i++) {
         uint32_t s = candidates->list[i];
-        if (candidates->set->shadows[s].owner == row) continue;
+        if (candidates->set->wide[s].owner == row) continue;
         if (consider(&fusion, box, &candidates->set->wide[s])) return true;
     }
     return fusion.candidates && fuse_candidates(&fusion, box, common->eye, common->range->frustum);

@@ -81,11 +81,11 @@ static inline uint32_t near_box(const rect_lanes *rects, const occ_projection *s
 {
     uint32_t bits = 0;
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        uint32_t near = not_above_wide(load_wide(rects->left + g), splat_wide(seen->max[0]));
-        near &= not_above_wide(splat_wide(seen->min[0]), load_wide(rects->right + g));
-        near &= not_above_wide(load_wide(rects->low + g), splat_wide(seen->max[1]));
-        near &= not_above_wide(splat_wide(seen->min[1]), load_wide(rects->high + g));
-        bits |= near << g;
+        fwide least[4] = {load_wide(rects->left + g), splat_wide(seen->min[0]),
+                          load_wide(rects->low + g), splat_wide(seen->min[1])};
+        fwide most[4] = {splat_wide(seen->max[0]), load_wide(rects->right + g),
+                         splat_wide(seen->max[1]), load_wide(rects->high + g)};
+        bits |= none_above_wide(least, most) << g;
     }
     return bits;
 }
@@ -105,11 +105,9 @@ static inline uint32_t near_point(const rect_lanes *rects, float at_u, float at_
     uint32_t bits = 0;
     fwide u = splat_wide(at_u), v = splat_wide(at_v);
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        uint32_t near = not_above_wide(load_wide(rects->left + g), u);
-        near &= not_above_wide(u, load_wide(rects->right + g));
-        near &= not_above_wide(load_wide(rects->low + g), v);
-        near &= not_above_wide(v, load_wide(rects->high + g));
-        bits |= near << g;
+        fwide least[4] = {load_wide(rects->left + g), u, load_wide(rects->low + g), v};
+        fwide most[4] = {u, load_wide(rects->right + g), v, load_wide(rects->high + g)};
+        bits |= none_above_wide(least, most) << g;
     }
     return bits;
 }

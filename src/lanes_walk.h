@@ -15,7 +15,7 @@ static inline contact meet_asked(const occ_question *question, const occ_wide_sh
 
 static inline bool is_own(const occ_question *question, const occ_shadow_set *set, uint32_t i)
 {
-    return set->shadows[i].owner - question->first < question->rows;
+    return set->wide[i].owner - question->first < question->rows;
 }
 
 // What holds the center may hide the box alone. Whether one does.
@@ -41,30 +41,25 @@ static inline bool ask_center(const occ_question *question, const occ_shadow_set
 // which can only show more.
 typedef struct near_list {
     rect_list rects;
-    uint16_t planes[LISTED_MOST]; // what cuts the box, once that is known
-    uint8_t state[LISTED_MOST];   // NEAR_*
-    uint32_t index[LISTED_MOST];
+    uint16_t planes[LISTED_MOST]; // what cuts the box, or NEAR_*
+    uint32_t index[LISTED_MOST + OCC_SHADOW_LANES];
 } near_list;
 
-#define NEAR_UNKNOWN  0u
-#define NEAR_TOUCHING 1u // it may hide the box together with others
-#define NEAR_USELESS  2u // apart, own, or the box is not behind its faces
+#define NEAR_UNKNOWN 0xffffu // not asked yet
+#define NEAR_USELESS 0xfffeu // apart, own, or the box is not behind its faces
 
 static inline void list_near(near_list *list, const occ_question *question,
                              const occ_shadow_set *set)
 {
-    uint32_t n = 0;
     list->rects.count = 0;
     for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
         rect_lanes rects = rects_of_block(&set->rects[b]);
         uint32_t near = present(near_box(&rects, question->seen), set->count - first);
-        if (n + OCC_SHADOW_LANES > LISTED_MOST) break;
+        if (list->rects.count + OCC_SHADOW_LANES > LISTED_MOST) break;
+        compress_indices(list->index + list->rects.count, first, near);
         append_rects(&list->rects, &set->rects[b], near);
-        for (; near; near &= near - 1u) {
-            list->state[n] = NEAR_UNKNOWN;
-            list->index[n++] = first + (uint32_t)__builtin_ctz(near);
-        }
     }
+    memset(list->planes, 0xff, list->rects.count * sizeof *list->planes);
 }
 
 // Whether any of the list holds corner k.
@@ -123,14 +118,13 @@ static inline bool corner_shows(const occ_question *question, const occ_shadow_s
 static inline bool is_candidate(near_list *list, uint32_t n, const occ_question *question,
                                 const occ_shadow_set *set)
 {
-    if (list->state[n] == NEAR_UNKNOWN) {
+    if (list->planes[n] == NEAR_UNKNOWN) {
         uint32_t i = list->index[n];
         contact met = meet_asked(question, &set->wide[i]);
         bool useless = met.apart || met.cutting >> OCC_FACE_LANE || is_own(question, set, i);
-        list->state[n] = useless ? NEAR_USELESS : NEAR_TOUCHING;
-        list->planes[n] = (uint16_t)met.cutting;
+        list->planes[n] = (uint16_t)(useless ? NEAR_USELESS : met.cutting);
     }
-    return list->state[n] == NEAR_TOUCHING;
+    return list->planes[n] != NEAR_USELESS;
 }
 
 // The first entry that holds the middle of a piece, or their number.

@@ -33,9 +33,10 @@ occ_tree_items occ_scene_object_items(const occ_scene *scene)
     return (occ_tree_items){&scene->boxes, bounds_of_objects};
 }
 
-occ_tree_items occ_scene_occluder_items(const occ_scene *scene)
+occ_tree_items occ_scene_occluder_items(const occ_scene *scene, uint32_t first)
 {
-    return (occ_tree_items){scene->occluder_boxes.data, bounds_of_occluders};
+    const occ_box *boxes = occ_scene_occluder_boxes(scene);
+    return (occ_tree_items){boxes ? boxes + first : NULL, bounds_of_occluders};
 }
 
 // Room for `more` objects. Grows by an eighth at least, so that adding one by one stays linear.
@@ -51,11 +52,13 @@ static occ_result reserve_objects(occ_scene *scene, size_t more)
     return result ? result : occ_array_reserve(&scene->hooks, &scene->slot_of, grown);
 }
 
+// A row for each slot is enough: until a commit no slot is used twice.
 static occ_result reserve_occluders(occ_scene *scene, size_t more)
 {
     occ_result result = occ_slots_reserve(&scene->hooks, &scene->occluders, more);
     if (result) return result;
-    return occ_array_reserve(&scene->hooks, &scene->occluder_boxes, scene->occluders.capacity);
+    return occ_occluder_rows_reserve(&scene->hooks, &scene->occluder_rows,
+                                     scene->occluders.capacity);
 }
 
 occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
@@ -83,8 +86,6 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
                         .objects = OCC_SLOTS,
                         .slot_of = OCC_ARRAY(uint32_t),
                         .occluders = OCC_SLOTS,
-                        .occluder_boxes = OCC_ARRAY(occ_box),
-                        .occluder_order = OCC_ARRAY(uint32_t),
                         .attached = OCC_ARRAY(occ_attached),
                         .reach = OCC_ARRAY(float),
                         .changed = OCC_ARRAY(uint32_t)};
@@ -112,8 +113,7 @@ void occ_scene_destroy(occ_scene *scene)
     occ_array_free(&hooks, &scene->slot_of);
     occ_octree_free(&hooks, &scene->object_tree);
     occ_slots_free(&hooks, &scene->occluders);
-    occ_array_free(&hooks, &scene->occluder_boxes);
-    occ_array_free(&hooks, &scene->occluder_order);
+    occ_occluder_rows_free(&hooks, &scene->occluder_rows);
     occ_octree_free(&hooks, &scene->occluder_tree);
     occ_array_free(&hooks, &scene->attached);
     occ_array_free(&hooks, &scene->reach);
@@ -259,13 +259,15 @@ occ_result occ_scene_add_occluders(occ_scene *scene, const occ_box *boxes, const
     if (result || !count) return result;
     result = reserve_occluders(scene, count);
     if (result) return occ_fail(&scene->hooks, result, "no room for %zu more occluders", count);
+    occ_occluder_rows *rows = &scene->occluder_rows;
     for (size_t i = 0; i < count; i++) {
-        uint32_t owner = owners ? owners[i].index - 1u : OCC_NO_SLOT; // none: 0 - 1 is OCC_NO_SLOT
-        uint32_t slot = occ_slots_take(&scene->occluders, owner);
-        ((occ_box *)scene->occluder_boxes.data)[slot] = boxes[i];
+        uint32_t row = rows->count++;
+        uint32_t slot = occ_slots_take(&scene->occluders, row);
+        rows->boxes[row] = boxes[i];
+        rows->slot_of[row] = slot;
+        rows->owner_of[row] = owners ? owners[i].index - 1u : OCC_NO_SLOT; // 0 - 1 is OCC_NO_SLOT
         if (occluders) occluders[i] = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
     }
-    scene->occluder_boxes.count = scene->occluders.count;
     scene->occluders_reordered = true;
     return OCC_SUCCESS;
 }
@@ -282,7 +284,7 @@ static uint32_t find_occluder(const occ_scene *scene, occ_occluder occluder)
 {
     uint32_t slot = occ_slots_find(&scene->occluders, occluder.index, occluder.generation);
     if (slot == OCC_NO_SLOT) return OCC_NO_SLOT;
-    uint32_t owner = scene->occluders.value[slot];
+    uint32_t owner = scene->occluder_rows.owner_of[scene->occluders.value[slot]];
     bool alive = owner == OCC_NO_SLOT || occ_slots_is_taken(&scene->objects, owner);
     return alive ? slot : OCC_NO_SLOT;
 }
@@ -294,9 +296,10 @@ occ_result occ_scene_move_occluder(occ_scene *scene, occ_occluder occluder, cons
     if (result) return result;
     uint32_t slot = find_occluder(scene, occluder);
     if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
-    occ_box *place = (occ_box *)scene->occluder_boxes.data + slot;
+    uint32_t row = scene->occluders.value[slot];
+    occ_box *place = scene->occluder_rows.boxes + row;
     scene->occluders_moved = true;
-    bool is_free = scene->occluders.value[slot] == OCC_NO_SLOT;
+    bool is_free = scene->occluder_rows.owner_of[row] == OCC_NO_SLOT;
     if (!scene->occluders_reordered && is_free && !same_key(&scene->occluder_tree, place, box)) {
         scene->occluders_reordered = true;
     }
@@ -309,6 +312,7 @@ occ_result occ_scene_remove_occluder(occ_scene *scene, occ_occluder occluder)
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     uint32_t slot = find_occluder(scene, occluder);
     if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
+    scene->occluder_rows.slot_of[scene->occluders.value[slot]] = OCC_NO_SLOT;
     occ_slots_release(&scene->occluders, slot);
     scene->occluders_reordered = true;
     return OCC_SUCCESS;
@@ -336,8 +340,9 @@ occ_result occ_scene_occluder_box(const occ_scene *scene, occ_occluder occluder,
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     uint32_t slot = find_occluder(scene, occluder);
     if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
-    uint32_t owned_by = scene->occluders.value[slot];
-    if (box) *box = occ_scene_occluder_boxes(scene)[slot];
+    uint32_t row = scene->occluders.value[slot];
+    uint32_t owned_by = scene->occluder_rows.owner_of[row];
+    if (box) *box = occ_scene_occluder_boxes(scene)[row];
     if (owner) {
         *owner = (occ_object){0, 0};
         if (owned_by != OCC_NO_SLOT) {

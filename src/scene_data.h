@@ -5,16 +5,22 @@
 //                 ^                 |
 //                 +----slot_of------+
 //
-// Occluders are looked up one by one: their boxes stay at their slots, and only `occluder_order` is
-// sorted. An occluder's slot carries its owner's slot.
+// Occluders have slots and rows of their own in the same way. A commit puts the rows in the order
+// in which the walk reads them:
+//
+//     | attached: an object owns them; by its row, then by slot | free: in their octree's order |
+//      <- attached_count ->
+//
+// so that the occluders of a subtree of either octree lie side by side.
 #ifndef OCC_SCENE_DATA_H
 #define OCC_SCENE_DATA_H
 
 #include "boxes.h"
+#include "occluder_rows.h"
 #include "octree.h"
 #include "slots.h"
 
-// What the objects of a subtree own: occluders [first, first + count) of the order.
+// What the objects of a subtree own: the occluders in rows [first, first + count).
 typedef struct occ_attached {
     uint32_t first, count;
     float reach; // the largest occ_occluder_reach() among them
@@ -32,11 +38,8 @@ struct occ_scene {
     occ_octree object_tree;
 
     occ_slots occluders;
-    occ_array occluder_boxes; // occ_box per slot
-    // uint32_t: slots. First the attached occluders, which an object owns, by their owners' rows;
-    // then the free ones, in the order of their tree.
-    occ_array occluder_order;
-    uint32_t attached_count;
+    occ_occluder_rows occluder_rows;
+    uint32_t attached_count;  // rows from here on are free
     occ_array attached;       // occ_attached per node of the objects' tree
     occ_octree occluder_tree; // of the free ones
     occ_array reach;          // float per node of it: the largest occ_occluder_reach() below
@@ -64,14 +67,26 @@ static inline const uint32_t *occ_scene_slot_of(const occ_scene *scene)
 
 static inline const occ_box *occ_scene_occluder_boxes(const occ_scene *scene)
 {
-    return scene->occluder_boxes.data;
+    return scene->occluder_rows.boxes;
+}
+
+static inline uint32_t occ_scene_free_count(const occ_scene *scene)
+{
+    return scene->occluder_rows.count - scene->attached_count;
+}
+
+// The row of the object that owns the occluder in a row, or OCC_NO_SLOT.
+static inline uint32_t occ_scene_owner_row(const occ_scene *scene, uint32_t row)
+{
+    uint32_t owner = scene->occluder_rows.owner_of[row];
+    return owner == OCC_NO_SLOT ? OCC_NO_SLOT : scene->objects.value[owner];
 }
 
 // The occluders' part of a commit, once the objects are in their rows.
 occ_result occ_commit_occluders(occ_scene *scene, occ_team *team);
 
-// How the octrees see the two kinds of items.
+// How the octrees see the two kinds of items. Occluders count from row `first` on.
 occ_tree_items occ_scene_object_items(const occ_scene *scene);
-occ_tree_items occ_scene_occluder_items(const occ_scene *scene);
+occ_tree_items occ_scene_occluder_items(const occ_scene *scene, uint32_t first);
 
 #endif

@@ -21,8 +21,12 @@ void kit_damage_set_up(void)
     kit_random random = {1};
     for (int i = 0; i < 60; i++)
         crowd[i] = i < 50 ? kit_box(&random, 20, 0.1f) : kit_cube(7, 7, 7, 0.25f);
-    ck_assert_int_eq(occ_scene_add_many(kit_victim, crowd, 60, NULL), OCC_SUCCESS);
+    occ_object objects[60];
+    ck_assert_int_eq(occ_scene_add_many(kit_victim, crowd, 60, objects), OCC_SUCCESS);
     ck_assert_int_eq(occ_scene_add_occluders(kit_victim, crowd, NULL, 60, NULL), OCC_SUCCESS);
+    for (int i = 0; i < 60; i++) // three to an owner
+        objects[i] = objects[i / 3 * 3];
+    ck_assert_int_eq(occ_scene_add_occluders(kit_victim, crowd, objects, 30, NULL), OCC_SUCCESS);
     ck_assert_int_eq(occ_scene_commit(kit_victim), OCC_SUCCESS);
     ck_assert_int_eq(occ_scene_validate(kit_victim), OCC_SUCCESS);
     ck_assert_uint_eq(record.errors, 0);

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_CELLS 2.0 // an item is at most that many of its cells wide
+
 // A tree with its items in order, and what a visit of all nodes has seen.
 typedef struct visit {
     const occ_octree *tree;
@@ -96,20 +98,22 @@ static void check_sizes(const visit *v, const occ_node *node, uint32_t own)
     double cell = cell_size(v, node->level);
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         double wide = width(&v->items[i]);
-        KIT_CHECK(node->level == 0 || wide <= cell, "an item is wider than its cell");
+        KIT_CHECK(node->level == 0 || wide <= MOST_CELLS * cell,
+                  "an item is too wide for its cell");
         KIT_CHECK(same_cell(v, &v->items[node->first], &v->items[i], node->level),
                   "two items of a node lie in two cells");
         bool is_own = i < node->first + own;
         bool keeps = node->children || node->count > v->tree->leaf_items;
         if (is_own && keeps && node->level < OCC_TREE_BITS) {
-            KIT_CHECK(wide > 0.5 * cell, "an item stays above the level its size deserves");
+            KIT_CHECK(wide > 0.5 * MOST_CELLS * cell,
+                      "an item stays above the level its size deserves");
         }
     }
     for (int j = 0; j < 3 && node->level; j++) {
         double extent = (double)node->max[j] - (double)node->min[j];
-        KIT_CHECK(extent <= 2.0 * cell * (1.0 + 0x1p-20) + 0x1p-140 +
+        KIT_CHECK(extent <= (1.0 + MOST_CELLS) * cell * (1.0 + 0x1p-20) + 0x1p-140 +
                                 fabs((double)node->max[j]) * 0x1p-20,
-                  "a node is wider than twice its cell");
+                  "a node sticks out of its cell too far");
     }
 }
 
@@ -180,48 +184,126 @@ static void check_tree(const occ_octree *tree, const occ_box *items, uint32_t co
     free(v.seen);
 }
 
-// Slots and rows name each other, and the order of the occluders is a permutation.
-static void check_tables(const occ_scene *scene)
+// Slots and rows name each other.
+static void check_slots(const occ_slots *slots, const uint32_t *slot_of, uint32_t rows)
 {
-    uint32_t rows = scene->boxes.count, taken = 0;
-    KIT_CHECK(scene->slot_of.count == rows, "a row has no slot");
-    for (uint32_t s = 0; s < scene->objects.count; s++) {
-        if (!(scene->objects.generation[s] & 1u)) continue;
-        uint32_t row = scene->objects.value[s];
-        KIT_CHECK(row < rows && occ_scene_slot_of(scene)[row] == s, "slot %u has no row", s);
+    uint32_t taken = 0;
+    for (uint32_t s = 0; s < slots->count; s++) {
+        if (!(slots->generation[s] & 1u)) continue;
+        uint32_t row = slots->value[s];
+        KIT_CHECK(row < rows && slot_of[row] == s, "slot %u has no row", s);
         taken++;
     }
-    KIT_CHECK(taken == rows, "%u objects have %u rows", taken, rows);
-    uint32_t slots = scene->occluders.count, placed = scene->occluder_order.count;
-    const uint32_t *order = scene->occluder_order.data;
-    unsigned *seen = calloc(slots + 1, sizeof *seen);
-    KIT_CHECK(seen, "out of memory");
-    for (uint32_t i = 0; i < placed; i++) {
-        KIT_CHECK(order[i] < slots, "an occluder is not there");
-        seen[order[i]]++;
-    }
-    for (uint32_t s = 0; s < slots; s++)
-        KIT_CHECK(seen[s] == (scene->occluders.generation[s] & 1u), "occluder %u is in %u places",
-                  s, seen[s]);
-    free(seen);
+    KIT_CHECK(taken == rows, "%u slots have %u rows", taken, rows);
 }
+
+// --- occluders -----------------------------------------------------------------------------------
+
+// What the occluders say that a node knows of them.
+typedef struct summary {
+    uint32_t first, count;
+    float reach;
+} summary;
+
+// Adds an occluder in `row` to all nodes on the way down to `item`.
+static void add_to_nodes(const occ_octree *tree, summary *of_nodes, uint32_t item, uint32_t row,
+                         float reach)
+{
+    const occ_node *nodes = occ_octree_nodes(tree);
+    for (uint32_t n = 0, next = 0; next != UINT32_MAX; n = next) {
+        summary *s = &of_nodes[n];
+        KIT_CHECK(!s->count || s->first + s->count == row, "rows of node %u do not meet", n);
+        if (!s->count++) s->first = row;
+        s->reach = fmaxf(s->reach, reach);
+        next = UINT32_MAX;
+        for (uint32_t c = nodes[n].child; c < nodes[n].child + nodes[n].children; c++)
+            if (item - nodes[c].first < nodes[c].count) next = c;
+    }
+}
+
+// Those that an object owns come first, by its row and then by slot.
+static void check_occluder_order(const occ_scene *scene)
+{
+    const occ_occluder_rows *rows = &scene->occluder_rows;
+    KIT_CHECK(scene->attached_count <= rows->count, "more are attached than there are");
+    uint64_t last = 0;
+    for (uint32_t i = 0; i < rows->count; i++) {
+        uint32_t owner = rows->owner_of[i];
+        KIT_CHECK((owner == OCC_NO_SLOT) == (i >= scene->attached_count),
+                  "occluder %u is not where those of its kind are", i);
+        if (owner == OCC_NO_SLOT) continue;
+        KIT_CHECK(owner < scene->objects.count && scene->objects.generation[owner] & 1u,
+                  "the owner of occluder %u is gone", i);
+        uint64_t here = (uint64_t)scene->objects.value[owner] << 32 | rows->slot_of[i];
+        KIT_CHECK(i == 0 || last < here, "occluder %u is out of order", i);
+        last = here;
+    }
+}
+
+static void check_attached(const occ_scene *scene)
+{
+    const occ_octree *tree = &scene->object_tree;
+    const occ_occluder_rows *rows = &scene->occluder_rows;
+    summary *of_nodes = calloc(tree->nodes.count + 1, sizeof *of_nodes);
+    uint32_t *ends = calloc(scene->boxes.count + 1, sizeof *ends); // of what rows before own
+    KIT_CHECK(of_nodes && ends, "out of memory");
+    for (uint32_t i = 0; i < scene->attached_count; i++) {
+        uint32_t owner = scene->objects.value[rows->owner_of[i]];
+        add_to_nodes(tree, of_nodes, owner, i, occ_occluder_reach(&rows->boxes[i]));
+        ends[owner + 1] = i + 1;
+    }
+    for (uint32_t row = 0; row < scene->boxes.count; row++)
+        ends[row + 1] = ends[row + 1] > ends[row] ? ends[row + 1] : ends[row];
+    KIT_CHECK(scene->attached.count == tree->nodes.count, "a node does not know its occluders");
+    for (uint32_t n = 0; n < tree->nodes.count; n++) {
+        const occ_attached *known = (const occ_attached *)scene->attached.data + n;
+        KIT_CHECK(known->first == ends[occ_octree_nodes(tree)[n].first] &&
+                      known->count == of_nodes[n].count,
+                  "node %u has occluders [%u, %u)", n, known->first, known->first + known->count);
+        KIT_CHECK(!known->count || known->first == of_nodes[n].first, "node %u: others' rows", n);
+        KIT_CHECK(known->reach == of_nodes[n].reach, "node %u: the reach is another", n);
+    }
+    free(of_nodes);
+    free(ends);
+}
+
+static void check_reach(const occ_scene *scene)
+{
+    const occ_octree *tree = &scene->occluder_tree;
+    const float *reach = scene->reach.data;
+    uint32_t first = scene->attached_count;
+    summary *of_nodes = calloc(tree->nodes.count + 1, sizeof *of_nodes);
+    KIT_CHECK(of_nodes, "out of memory");
+    for (uint32_t i = first; i < scene->occluder_rows.count; i++)
+        add_to_nodes(tree, of_nodes, i - first, i,
+                     occ_occluder_reach(&scene->occluder_rows.boxes[i]));
+    KIT_CHECK(scene->reach.count == tree->nodes.count, "a node has no reach");
+    for (uint32_t n = 0; n < tree->nodes.count; n++)
+        KIT_CHECK(reach[n] == of_nodes[n].reach, "node %u reaches another distance", n);
+    free(of_nodes);
+}
+
+// --- scenes --------------------------------------------------------------------------------------
 
 void kit_check_trees(const occ_scene *scene)
 {
-    check_tables(scene);
-    uint32_t objects = scene->boxes.count, occluders = scene->occluder_order.count;
-    uint32_t most = objects > occluders ? objects : occluders;
-    occ_box *items = malloc((most + 1) * sizeof *items);
+    const occ_occluder_rows *rows = &scene->occluder_rows;
+    uint32_t objects = scene->boxes.count;
+    KIT_CHECK(scene->slot_of.count == objects, "a row has no slot");
+    check_slots(&scene->objects, occ_scene_slot_of(scene), objects);
+    check_slots(&scene->occluders, rows->slot_of, rows->count);
+    check_occluder_order(scene);
+    occ_box *items = malloc((objects + 1) * sizeof *items);
     KIT_CHECK(items, "out of memory");
     for (uint32_t i = 0; i < objects; i++)
         items[i] = occ_boxes_get(&scene->boxes, i);
     check_tree(&scene->object_tree, items, objects);
-    for (uint32_t i = 0; i < occluders; i++) {
-        uint32_t slot = ((const uint32_t *)scene->occluder_order.data)[i];
-        items[i] = occ_scene_occluder_boxes(scene)[slot];
-    }
-    check_tree(&scene->occluder_tree, items, occluders);
     free(items);
+    uint32_t free_count = rows->count - scene->attached_count;
+    check_tree(&scene->occluder_tree, free_count ? rows->boxes + scene->attached_count : NULL,
+               free_count);
+    check_attached(scene);
+    check_reach(scene);
     occ_result result = occ_scene_validate(scene);
     KIT_CHECK(result == OCC_SUCCESS, "the validator says %s", occ_result_name(result));
 }
@@ -245,16 +327,31 @@ static bool same_array(const occ_array *a, const occ_array *b)
            (!a->count || kit_same_bits(a->data, b->data, (size_t)a->count * a->element));
 }
 
+void kit_check_same_occluders(const occ_scene *a, const occ_scene *b)
+{
+    const occ_occluder_rows *x = &a->occluder_rows, *y = &b->occluder_rows;
+    kit_check_same_tree(&a->occluder_tree, &b->occluder_tree);
+    KIT_CHECK(x->count == y->count && a->attached_count == b->attached_count,
+              "there are more or fewer occluders");
+    for (uint32_t i = 0; i < x->count; i++)
+        KIT_CHECK(kit_same_bits(&x->boxes[i], &y->boxes[i], sizeof *x->boxes),
+                  "occluder %u differs", i);
+    KIT_CHECK(same_array(&a->attached, &b->attached), "what is attached to nodes differs");
+    KIT_CHECK(same_array(&a->reach, &b->reach), "how far the occluders reach differs");
+}
+
 void kit_check_same_scene(const occ_scene *a, const occ_scene *b)
 {
     kit_check_same_tree(&a->object_tree, &b->object_tree);
-    kit_check_same_tree(&a->occluder_tree, &b->occluder_tree);
+    kit_check_same_occluders(a, b);
     KIT_CHECK(same_array(&a->slot_of, &b->slot_of), "the order of the objects differs");
-    KIT_CHECK(same_array(&a->occluder_order, &b->occluder_order), "that of the occluders differs");
-    KIT_CHECK(same_array(&a->reach, &b->reach), "how far the occluders reach differs");
+    const occ_occluder_rows *x = &a->occluder_rows, *y = &b->occluder_rows;
+    for (uint32_t i = 0; i < x->count; i++)
+        KIT_CHECK(x->slot_of[i] == y->slot_of[i] && x->owner_of[i] == y->owner_of[i],
+                  "row %u holds another occluder", i);
     for (uint32_t i = 0; i < a->boxes.count; i++) {
-        occ_box x = occ_boxes_get(&a->boxes, i), y = occ_boxes_get(&b->boxes, i);
-        KIT_CHECK(kit_same_bits(&x, &y, sizeof x), "box %u differs", i);
+        occ_box one = occ_boxes_get(&a->boxes, i), other = occ_boxes_get(&b->boxes, i);
+        KIT_CHECK(kit_same_bits(&one, &other, sizeof one), "box %u differs", i);
     }
 }
 

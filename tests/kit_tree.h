@@ -14,6 +14,10 @@ void kit_check_trees(const occ_scene *scene);
 // Fails the test unless two trees are the same, node for node and bit for bit.
 void kit_check_same_tree(const occ_octree *a, const occ_octree *b);
 
+// Fails the test unless two scenes have the same occluders in the same rows, whatever their slots,
+// and know the same about them.
+void kit_check_same_occluders(const occ_scene *a, const occ_scene *b);
+
 // Fails the test unless two scenes with the same slots are the same inside, bit for bit.
 void kit_check_same_scene(const occ_scene *a, const occ_scene *b);
 

@@ -157,11 +157,18 @@ static occ_scene *new_scene(uint32_t leaf_objects)
     return scene;
 }
 
-// Adds boxes as objects and as occluders.
+// Adds boxes as objects, each as an occluder that its object owns, and each as one that nobody
+// does.
 static void add(occ_scene *scene, const occ_box *boxes, size_t count)
 {
-    KIT_CHECK(!occ_scene_add_many(scene, boxes, count, NULL), "the boxes are refused");
-    KIT_CHECK(!occ_scene_add_occluders(scene, boxes, NULL, count, NULL), "the boxes are refused");
+    occ_box twice[2 * COUNT];
+    occ_object objects[COUNT], owners[2 * COUNT];
+    KIT_CHECK(!occ_scene_add_many(scene, boxes, count, objects), "the boxes are refused");
+    for (size_t i = 0; i < 2 * count; i++) {
+        twice[i] = boxes[i / 2];
+        owners[i] = i % 2 ? objects[i / 2] : (occ_object){0, 0};
+    }
+    KIT_CHECK(!occ_scene_add_occluders(scene, twice, owners, 2 * count, NULL), "they are refused");
 }
 
 static void commit_and_check(occ_scene *scene)
@@ -203,6 +210,9 @@ START_TEST(nodes_are_the_same_whatever_the_order_of_insertion)
     commit_and_check(second);
     kit_check_same_tree(&first->object_tree, &second->object_tree);
     kit_check_same_tree(&first->occluder_tree, &second->occluder_tree);
+    ck_assert_uint_eq(first->attached.count, second->attached.count);
+    ck_assert_mem_eq(first->attached.data, second->attached.data,
+                     first->attached.count * sizeof(occ_attached));
     occ_scene_destroy(first);
     occ_scene_destroy(second);
 }

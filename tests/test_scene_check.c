@@ -5,20 +5,6 @@
 
 #include <math.h>
 
-// The first place from `from` on in the order of the occluders whose neighbour has another key,
-// or, if `ties`, the same one: the boxes are alike then.
-static uint32_t place_of(bool ties)
-{
-    const uint32_t *order = kit_victim->occluder_order.data;
-    const occ_box *boxes = occ_scene_occluder_boxes(kit_victim);
-    for (uint32_t i = 0; i + 1 < kit_victim->occluder_order.count; i++) {
-        bool same = kit_same_bits(&boxes[order[i]], &boxes[order[i + 1]], sizeof *boxes);
-        if (same == ties) return i;
-    }
-    ck_abort_msg("no such neighbours");
-    return 0;
-}
-
 static void swap_words(uint32_t *words, uint32_t i)
 {
     uint32_t swap = words[i];
@@ -87,72 +73,206 @@ static void lose_the_bits_of_change(void)
     kit_victim->changed.count = 0;
 }
 
-static void swap_occluders(void)
+// --- the rows of occluders -----------------------------------------------------------------------
+
+static occ_occluder_rows *rows(void)
 {
-    swap_words(kit_victim->occluder_order.data, place_of(false));
+    return &kit_victim->occluder_rows;
 }
 
-static void swap_like_occluders(void)
+static uint32_t first_free(void)
 {
-    swap_words(kit_victim->occluder_order.data, place_of(true));
+    return kit_victim->attached_count;
+}
+
+// Lets two occluders change rows, with all that belongs to them.
+static void exchange(uint32_t i, uint32_t j)
+{
+    occ_occluder_rows *r = rows();
+    occ_box box = r->boxes[i];
+    uint32_t slot = r->slot_of[i], owner = r->owner_of[i];
+    r->boxes[i] = r->boxes[j];
+    r->slot_of[i] = r->slot_of[j];
+    r->owner_of[i] = r->owner_of[j];
+    r->boxes[j] = box;
+    r->slot_of[j] = slot;
+    r->owner_of[j] = owner;
+    kit_victim->occluders.value[r->slot_of[i]] = i;
+    kit_victim->occluders.value[r->slot_of[j]] = j;
+}
+
+// The first row whose neighbour has the same owner, or another.
+static uint32_t attached_row(bool same_owner)
+{
+    for (uint32_t i = 0; i + 1 < kit_victim->attached_count; i++)
+        if ((rows()->owner_of[i] == rows()->owner_of[i + 1]) == same_owner) return i;
+    ck_abort_msg("no such neighbours");
+    return 0;
+}
+
+// The first free row whose neighbour has the same box, or another.
+static uint32_t free_row(bool same_box)
+{
+    const occ_box *boxes = rows()->boxes;
+    for (uint32_t i = first_free(); i + 1 < rows()->count; i++)
+        if (kit_same_bits(&boxes[i], &boxes[i + 1], sizeof *boxes) == same_box) return i;
+    ck_abort_msg("no such neighbours");
+    return 0;
+}
+
+static void exchange_two_owners(void)
+{
+    uint32_t i = attached_row(false);
+    exchange(i, i + 1);
+}
+
+static void exchange_two_of_one_owner(void)
+{
+    uint32_t i = attached_row(true);
+    rows()->boxes[i + 1] = rows()->boxes[i]; // so that nothing else gives it away
+    exchange(i, i + 1);
+}
+
+static void exchange_two_free_ones(void)
+{
+    uint32_t i = free_row(false);
+    exchange(i, i + 1);
+}
+
+static void exchange_two_like_ones(void)
+{
+    uint32_t i = free_row(true);
+    exchange(i, i + 1);
+}
+
+static void exchange_a_free_one_and_an_attached_one(void)
+{
+    rows()->boxes[first_free()] = rows()->boxes[first_free() - 1];
+    exchange(first_free() - 1, first_free());
+}
+
+static void swap_occluders_slots(void)
+{
+    swap_words(rows()->slot_of, 3);
 }
 
 static void repeat_an_occluder(void)
 {
-    uint32_t *order = kit_victim->occluder_order.data, i = place_of(true);
-    order[i + 1] = order[i];
+    rows()->slot_of[1] = rows()->slot_of[0];
 }
 
 static void name_an_occluder_outside(void)
 {
-    ((uint32_t *)kit_victim->occluder_order.data)[3] = kit_victim->occluders.count;
+    rows()->slot_of[3] = kit_victim->occluders.count;
+}
+
+static void leave_a_hole(void)
+{
+    rows()->slot_of[3] = OCC_NO_SLOT;
 }
 
 static void lose_an_occluder(void)
 {
-    kit_victim->occluder_order.count--;
+    rows()->count--;
 }
 
 static void untake_an_occluder(void)
 {
-    kit_victim->occluders.generation[*(uint32_t *)kit_victim->occluder_order.data]++;
+    kit_victim->occluders.generation[rows()->slot_of[0]]++;
+}
+
+static void point_an_occluder_elsewhere(void)
+{
+    kit_victim->occluders.value[rows()->slot_of[first_free()]]++;
+}
+
+static void count_one_occluder_more(void)
+{
+    kit_victim->occluders.taken++;
+}
+
+static void release_and_forget_an_occluder(void)
+{
+    kit_victim->occluders.released_count++;
 }
 
 static void make_an_orphan(void)
 {
     uint32_t gone = kit_victim->objects.free;
     ck_assert_uint_ne(gone, OCC_NO_SLOT);
-    kit_victim->occluders.value[*(uint32_t *)kit_victim->occluder_order.data] = gone;
+    rows()->owner_of[0] = gone;
 }
 
 static void name_an_owner_outside(void)
 {
-    kit_victim->occluders.value[*(uint32_t *)kit_victim->occluder_order.data] =
-        kit_victim->objects.count;
+    rows()->owner_of[0] = kit_victim->objects.count;
 }
 
-static void move_an_occluder_secretly(void)
+static void forget_an_owner(void)
 {
-    uint32_t slot = *(uint32_t *)kit_victim->occluder_order.data;
-    ((occ_box *)kit_victim->occluder_boxes.data)[slot].center[1] += 1000.0f;
+    rows()->owner_of[first_free() - 1] = OCC_NO_SLOT;
 }
 
-static void make_an_occluder_unknown(void)
+static void own_a_free_one(void)
 {
-    uint32_t slot = *(uint32_t *)kit_victim->occluder_order.data;
-    ((occ_box *)kit_victim->occluder_boxes.data)[slot].axis[2][2] = NAN;
+    uint32_t last = kit_victim->boxes.count - 1;
+    rows()->owner_of[first_free()] = occ_scene_slot_of(kit_victim)[last];
 }
 
-static void shorten_a_reach(void)
+static const occ_node *node_of_row(uint32_t row)
 {
-    float *reach = kit_victim->reach.data;
-    reach[1] = nextafterf(reach[1], 0.0f);
+    uint32_t slot = occ_scene_slot_of(kit_victim)[row];
+    occ_object object = {slot + 1, kit_victim->objects.generation[slot]};
+    return kit_node_of(kit_victim, object);
 }
 
-static void lengthen_a_reach(void)
+// The last of them to the last of the objects: the order stays.
+static void give_to_another_owner(void)
 {
-    float *reach = kit_victim->reach.data;
-    reach[0] = nextafterf(reach[0], INFINITY);
+    uint32_t i = kit_victim->attached_count - 1, row = kit_victim->boxes.count - 1;
+    ck_assert_ptr_ne(node_of_row(occ_scene_owner_row(kit_victim, i)), node_of_row(row));
+    rows()->owner_of[i] = occ_scene_slot_of(kit_victim)[row];
+}
+
+static void move_a_free_one_secretly(void)
+{
+    rows()->boxes[first_free()].center[1] += 1000.0f;
+}
+
+static void make_an_attached_one_unknown(void)
+{
+    rows()->boxes[0].axis[2][2] = NAN;
+}
+
+static void make_a_free_one_unknown(void)
+{
+    rows()->boxes[first_free()].center[2] = NAN;
+}
+
+static void enlarge_an_attached_one_secretly(void)
+{
+    for (int k = 0; k < 3; k++)
+        rows()->boxes[0].axis[k][k] += 1000.0f;
+}
+
+static void attach_one_more(void)
+{
+    kit_victim->attached_count++;
+}
+
+static void attach_one_less(void)
+{
+    kit_victim->attached_count--;
+}
+
+static void attach_far_too_many(void)
+{
+    kit_victim->attached_count = 0x7fffffff;
+}
+
+static void lose_what_is_attached_to_a_node(void)
+{
+    kit_victim->attached.count--;
 }
 
 static void lose_a_reach(void)
@@ -178,18 +298,33 @@ static const kit_damage table_damages[] = {
     {"a box is infinite", make_a_box_infinite},
     {"a box is NaN", make_a_box_unknown},
     {"the bits of change are missing", lose_the_bits_of_change},
-    {"two occluders have changed places", swap_occluders},
-    {"two like occluders have changed places", swap_like_occluders},
+    {"occluders of two owners have changed rows", exchange_two_owners},
+    {"occluders of one owner have changed rows", exchange_two_of_one_owner},
+    {"free occluders have changed rows", exchange_two_free_ones},
+    {"like occluders have changed rows", exchange_two_like_ones},
+    {"a free occluder lies before an attached one", exchange_a_free_one_and_an_attached_one},
+    {"two occluders have each other's slot", swap_occluders_slots},
     {"an occluder stands twice", repeat_an_occluder},
-    {"the order names an occluder outside", name_an_occluder_outside},
+    {"a row names an occluder outside", name_an_occluder_outside},
+    {"a row is a hole", leave_a_hole},
     {"an occluder is missing", lose_an_occluder},
     {"an occluder's slot is not taken", untake_an_occluder},
+    {"an occluder's slot points elsewhere", point_an_occluder_elsewhere},
+    {"an occluder too many is counted", count_one_occluder_more},
+    {"the list of released occluders is not empty", release_and_forget_an_occluder},
     {"an owner is gone", make_an_orphan},
     {"an owner is outside", name_an_owner_outside},
-    {"an occluder has moved", move_an_occluder_secretly},
-    {"an occluder is NaN", make_an_occluder_unknown},
-    {"a reach is too short", shorten_a_reach},
-    {"a reach is too long", lengthen_a_reach},
+    {"an owner is forgotten", forget_an_owner},
+    {"a free occluder has an owner", own_a_free_one},
+    {"an occluder has another owner", give_to_another_owner},
+    {"a free occluder has moved", move_a_free_one_secretly},
+    {"an attached occluder is NaN", make_an_attached_one_unknown},
+    {"a free occluder is NaN", make_a_free_one_unknown},
+    {"an attached occluder has grown", enlarge_an_attached_one_secretly},
+    {"one too many is attached", attach_one_more},
+    {"one too few is attached", attach_one_less},
+    {"far too many are attached", attach_far_too_many},
+    {"a node has nothing attached", lose_what_is_attached_to_a_node},
     {"a reach is missing", lose_a_reach},
     {"the released list is not empty", release_and_forget},
 };
@@ -199,6 +334,96 @@ START_TEST(damage_to_a_table_is_seen)
 {
     table_damages[_i].do_it();
     kit_damage_check(table_damages[_i].what);
+}
+END_TEST
+
+// --- what a node knows of occluders --------------------------------------------------------------
+
+static void earlier_first(occ_attached *attached)
+{
+    attached->first--;
+}
+
+static void later_first(occ_attached *attached)
+{
+    attached->first++;
+}
+
+static void larger_count(occ_attached *attached)
+{
+    attached->count++;
+}
+
+static void smaller_count(occ_attached *attached)
+{
+    attached->count--;
+}
+
+static void later_but_ending_there(occ_attached *attached)
+{
+    attached->first++;
+    attached->count--;
+}
+
+static void longer_reach(occ_attached *attached)
+{
+    attached->reach = nextafterf(attached->reach, INFINITY);
+}
+
+static void shorter_reach(occ_attached *attached)
+{
+    attached->reach = nextafterf(attached->reach, -INFINITY);
+}
+
+static void unknown_reach(occ_attached *attached)
+{
+    attached->reach = NAN;
+}
+
+static const struct {
+    const char *what;
+    void (*do_it)(occ_attached *attached);
+} attached_damages[] = {
+    {"first, too early", earlier_first},
+    {"first, too late", later_first},
+    {"count, too large", larger_count},
+    {"count, too small", smaller_count},
+    {"first, too late, with the same end", later_but_ending_there},
+    {"reach, too long", longer_reach},
+    {"reach, too short", shorter_reach},
+    {"reach, NaN", unknown_reach},
+};
+enum { ATTACHED_DAMAGES = (int)(sizeof attached_damages / sizeof *attached_damages) };
+
+START_TEST(damage_to_what_is_attached_to_any_node_is_seen)
+{
+    occ_attached *attached = kit_victim->attached.data;
+    ck_assert_uint_gt(kit_victim->attached.count, 50);
+    for (uint32_t n = 0; n < kit_victim->attached.count; n++) {
+        occ_attached whole = attached[n];
+        attached_damages[_i].do_it(&attached[n]);
+        kit_damage_check(attached_damages[_i].what);
+        attached[n] = whole;
+    }
+    ck_assert_int_eq(occ_scene_validate(kit_victim), OCC_SUCCESS);
+}
+END_TEST
+
+START_TEST(damage_to_the_reach_of_any_node_is_seen)
+{
+    float *reach = kit_victim->reach.data;
+    ck_assert_uint_gt(kit_victim->reach.count, 10);
+    for (uint32_t n = 0; n < kit_victim->reach.count; n++) {
+        float whole = reach[n];
+        reach[n] = nextafterf(whole, INFINITY);
+        kit_damage_check("a reach is too long");
+        reach[n] = nextafterf(whole, -INFINITY);
+        kit_damage_check("a reach is too short");
+        reach[n] = NAN;
+        kit_damage_check("a reach is NaN");
+        reach[n] = whole;
+    }
+    ck_assert_int_eq(occ_scene_validate(kit_victim), OCC_SUCCESS);
 }
 END_TEST
 
@@ -222,6 +447,9 @@ int main(void)
     TCase *tables = tcase_create("tables");
     tcase_add_checked_fixture(tables, kit_damage_set_up, kit_damage_tear_down);
     tcase_add_loop_test(tables, damage_to_a_table_is_seen, 0, TABLE_DAMAGES);
+    tcase_add_loop_test(tables, damage_to_what_is_attached_to_any_node_is_seen, 0,
+                        ATTACHED_DAMAGES);
+    tcase_add_test(tables, damage_to_the_reach_of_any_node_is_seen);
     tcase_add_test(tables, scene_with_edits_is_not_validated_but_committed_first);
     suite_add_tcase(suite, tables);
     return test_run_suite(suite);

@@ -60,10 +60,13 @@ static uint64_t digest(void)
     size_t column = scene->boxes.count * sizeof(float);
     for (uint32_t c = 0; c < OCC_BOX_COLUMNS; c++)
         sum = hash(sum, occ_boxes_column(&scene->boxes, c), column);
-    const occ_array *arrays[] = {
-        &scene->slot_of,        &scene->object_tree.nodes,   &scene->occluder_boxes,
-        &scene->occluder_order, &scene->occluder_tree.nodes, &scene->reach,
-        &scene->changed};
+    const occ_occluder_rows *rows = &scene->occluder_rows;
+    sum = hash(sum, rows->boxes, rows->count * sizeof *rows->boxes);
+    sum = hash(sum, rows->slot_of, rows->count * sizeof *rows->slot_of);
+    sum = hash(sum, rows->owner_of, rows->count * sizeof *rows->owner_of);
+    const occ_array *arrays[] = {&scene->slot_of,  &scene->object_tree.nodes,
+                                 &scene->attached, &scene->occluder_tree.nodes,
+                                 &scene->reach,    &scene->changed};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         sum = hash_array(sum, arrays[i]);
     return sum;
