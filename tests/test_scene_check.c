@@ -101,11 +101,22 @@ static void exchange(uint32_t i, uint32_t j)
     kit_victim->occluders.value[r->slot_of[j]] = j;
 }
 
-// The first row whose neighbour has the same owner, or another.
+static const occ_node *node_of_row(uint32_t row)
+{
+    uint32_t slot = occ_scene_slot_of(kit_victim)[row];
+    occ_object object = {slot + 1, kit_victim->objects.generation[slot]};
+    return kit_node_of(kit_victim, object);
+}
+
+// The first row whose neighbour has the same owner, or another in the same node: what is attached
+// to nodes does not change with their order.
 static uint32_t attached_row(bool same_owner)
 {
-    for (uint32_t i = 0; i + 1 < kit_victim->attached_count; i++)
-        if ((rows()->owner_of[i] == rows()->owner_of[i + 1]) == same_owner) return i;
+    for (uint32_t i = 0; i + 1 < kit_victim->attached_count; i++) {
+        uint32_t here = occ_scene_owner_row(kit_victim, i);
+        uint32_t next = occ_scene_owner_row(kit_victim, i + 1);
+        if ((here == next) == same_owner && node_of_row(here) == node_of_row(next)) return i;
+    }
     ck_abort_msg("no such neighbours");
     return 0;
 }
@@ -217,13 +228,6 @@ static void own_a_free_one(void)
 {
     uint32_t last = kit_victim->boxes.count - 1;
     rows()->owner_of[first_free()] = occ_scene_slot_of(kit_victim)[last];
-}
-
-static const occ_node *node_of_row(uint32_t row)
-{
-    uint32_t slot = occ_scene_slot_of(kit_victim)[row];
-    occ_object object = {slot + 1, kit_victim->objects.generation[slot]};
-    return kit_node_of(kit_victim, object);
 }
 
 // The last of them to the last of the objects: the order stays.
@@ -427,6 +431,23 @@ START_TEST(damage_to_the_reach_of_any_node_is_seen)
 }
 END_TEST
 
+START_TEST(more_attached_than_there_are_is_seen)
+{
+    kit_log record = {.lines = 0};
+    occ_scene_desc desc = {.logger = kit_logger(&record)};
+    occ_scene *scene;
+    ck_assert_int_eq(occ_scene_create(&desc, &scene), OCC_SUCCESS);
+    kit_fill(scene, 20, 1, 1, NULL, NULL); // somebody owns each of them
+    ck_assert_int_eq(occ_scene_commit(scene), OCC_SUCCESS);
+    ck_assert_int_eq(occ_scene_validate(scene), OCC_SUCCESS);
+    scene->attached_count++;
+    ck_assert_int_eq(occ_scene_validate(scene), OCC_ERROR_CORRUPT);
+    ck_assert(kit_logged(&record, "attached occluders have rows"));
+    scene->attached_count--;
+    occ_scene_destroy(scene);
+}
+END_TEST
+
 START_TEST(scene_with_edits_is_not_validated_but_committed_first)
 {
     occ_scene *scene;
@@ -450,6 +471,7 @@ int main(void)
     tcase_add_loop_test(tables, damage_to_what_is_attached_to_any_node_is_seen, 0,
                         ATTACHED_DAMAGES);
     tcase_add_test(tables, damage_to_the_reach_of_any_node_is_seen);
+    tcase_add_test(tables, more_attached_than_there_are_is_seen);
     tcase_add_test(tables, scene_with_edits_is_not_validated_but_committed_first);
     suite_add_tcase(suite, tables);
     return test_run_suite(suite);
