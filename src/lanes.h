@@ -12,13 +12,18 @@
 
 #define OCC_NODE_LANES   8u
 #define OCC_SHADOW_LANES 16u
+#define OCC_PLANE_LANES  8u
 #define OCC_FACE_LANE    6u
 #define OCC_NO_PLANE_AT  1e30f // the offset in lanes without a plane
 
-// One shadow with its planes side by side: coordinate j of plane p is plane[j][p]. Silhouettes
-// begin at lane 0, faces at OCC_FACE_LANE; everything is inside the planes of the other lanes.
+// One shadow with its planes side by side, in two lines of cache: coordinate j of plane p is
+// plane[j][p]. Silhouettes begin at lane 0, faces at OCC_FACE_LANE; the third face, if there is
+// one, is `last`. Everything is inside the planes of the other lanes.
 typedef struct occ_wide_shadow {
-    float plane[4][OCC_SHADOW_LANES];
+    float plane[4][OCC_PLANE_LANES];
+    float last[4];
+    uint32_t owner; // as in occ_shadow
+    uint32_t pad[11];
 } occ_wide_shadow;
 
 void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow);

@@ -32,13 +32,15 @@ const occ_lanes *occ_lanes_choose(void)
 
 void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow)
 {
-    *wide = (occ_wide_shadow){{{0.0f}}};
-    for (uint32_t l = 0; l < OCC_SHADOW_LANES; l++)
+    *wide = (occ_wide_shadow){.owner = shadow->owner};
+    for (uint32_t l = 0; l < OCC_PLANE_LANES; l++)
         wide->plane[3][l] = OCC_NO_PLANE_AT;
+    wide->last[3] = OCC_NO_PLANE_AT;
     uint32_t silhouettes = occ_shadow_silhouettes(shadow);
     for (uint32_t p = 0; p < shadow->planes; p++) {
         uint32_t lane = p < silhouettes ? p : OCC_FACE_LANE + p - silhouettes;
         for (uint32_t j = 0; j < 4; j++)
-            wide->plane[j][lane] = shadow->plane[p][j];
+            *(lane < OCC_PLANE_LANES ? &wide->plane[j][lane] : &wide->last[j]) =
+                shadow->plane[p][j];
     }
 }

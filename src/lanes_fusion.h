@@ -10,7 +10,6 @@
 #include "lanes.h"
 
 #define OCC_MOST_SHADOW_BLOCKS 256u // beyond, shadows hide alone
-#define LAST_LANE              8u   // a third face
 
 typedef struct fusion_lanes {
     piece_lanes stack[OCC_FUSION_STACK + 1]; // cut_piece() needs room for one more
@@ -22,8 +21,14 @@ typedef struct fusion_lanes {
     bool held;
 } fusion_lanes;
 
+static inline occ_cutter last_of(const occ_wide_shadow *shadow)
+{
+    return (occ_cutter){shadow->last[0], shadow->last[1], shadow->last[2], shadow->last[3]};
+}
+
 static inline occ_cutter cutter_of(const occ_wide_shadow *shadow, uint32_t p)
 {
+    if (p == OCC_PLANE_LANES) return last_of(shadow);
     return (occ_cutter){shadow->plane[0][p], shadow->plane[1][p], shadow->plane[2][p],
                         shadow->plane[3][p]};
 }
@@ -49,12 +54,12 @@ static inline void meet_planes(contact *met, uint32_t l, uint32_t outside, uint3
 static inline void meet_last_plane(contact *met, const occ_wide_shadow *shadow,
                                    const occ_relative_box *box)
 {
-    occ_cutter n = cutter_of(shadow, LAST_LANE);
+    occ_cutter n = last_of(shadow);
     if (n.d == OCC_NO_PLANE_AT) return;
     float s = OCC_PLANE_AT(n.x, n.y, n.z, n.d, box->t[0], box->t[1], box->t[2]);
     float r = occ_box_reach(box, n.x, n.y, n.z);
     met->apart = OCC_IS_OUTSIDE(s, r, box->e);
-    met->cutting |= (uint32_t)!OCC_IS_INSIDE(s, r, box->e) << LAST_LANE;
+    met->cutting |= (uint32_t)!OCC_IS_INSIDE(s, r, box->e) << OCC_PLANE_LANES;
     met->held &= s > box->e;
 }
 
@@ -62,7 +67,7 @@ static inline contact meet(const occ_relative_box *box, const occ_wide_shadow *s
 {
     const float *t = box->t, *a = box->a;
     contact met = {.held = true};
-    for (uint32_t l = 0; l < LAST_LANE && !met.apart; l += OCC_NODE_WIDTH) {
+    for (uint32_t l = 0; l < OCC_PLANE_LANES && !met.apart; l += OCC_NODE_WIDTH) {
         fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
         fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
         fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
@@ -81,7 +86,7 @@ static inline contact meet_upright(const occ_relative_box *box, const occ_wide_s
 {
     const float *t = box->t, *a = box->a;
     contact met = {.held = true};
-    for (uint32_t l = 0; l < LAST_LANE && !met.apart; l += OCC_NODE_WIDTH) {
+    for (uint32_t l = 0; l < OCC_PLANE_LANES && !met.apart; l += OCC_NODE_WIDTH) {
         fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
         fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
         fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
@@ -126,7 +131,7 @@ static inline occ_vertex middle_of(const piece_lanes *piece)
 static inline bool holds(const occ_wide_shadow *shadow, uint32_t planes, const occ_vertex *middle)
 {
     uint32_t held = 0;
-    for (uint32_t l = 0; l < LAST_LANE; l += OCC_NODE_WIDTH) {
+    for (uint32_t l = 0; l < OCC_PLANE_LANES; l += OCC_NODE_WIDTH) {
         fnode dw = load_node(shadow->plane[3] + l) * middle->w;
         fnode at =
             OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
@@ -134,21 +139,21 @@ static inline bool holds(const occ_wide_shadow *shadow, uint32_t planes, const o
         held |= above_node(at, OCC_MIDDLE_LEAST(middle->e, dw)) << l;
     }
     if (planes & ~held & 0xffu) return false;
-    if (!(planes >> LAST_LANE)) return true;
-    occ_cutter n = cutter_of(shadow, LAST_LANE);
+    if (!(planes >> OCC_PLANE_LANES)) return true;
+    occ_cutter n = last_of(shadow);
     return occ_vertex_at(middle, &n) > OCC_MIDDLE_LEAST(middle->e, n.d * middle->w);
 }
 
 // As occ_shadow_holds_point().
 static inline bool holds_point(const occ_wide_shadow *shadow, float x, float y, float z, float e)
 {
-    for (uint32_t l = 0; l < LAST_LANE; l += OCC_NODE_WIDTH) {
+    for (uint32_t l = 0; l < OCC_PLANE_LANES; l += OCC_NODE_WIDTH) {
         fnode at =
             OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
                          load_node(shadow->plane[2] + l), load_node(shadow->plane[3] + l), x, y, z);
         if (above_node(at, splat_node(e)) != (1u << OCC_NODE_WIDTH) - 1u) return false;
     }
-    occ_cutter n = cutter_of(shadow, LAST_LANE);
+    occ_cutter n = last_of(shadow);
     return OCC_PLANE_AT(n.x, n.y, n.z, n.d, x, y, z) > e;
 }
 

@@ -8,8 +8,7 @@
 
 #include "box.h"
 
-#define ALL_WIDE      ((1u << OCC_WIDTH) - 1u)
-#define LISTED_BLOCKS 16u // of candidates of a range
+#define ALL_WIDE ((1u << OCC_WIDTH) - 1u)
 
 typedef struct object_lanes {
     fwide t[3];
@@ -85,20 +84,17 @@ static inline uint32_t centers_in_frustum(const object_lanes *o, const occ_eye *
     return in;
 }
 
-// Where a range's candidates are on the screen, sixteen by sixteen in the order of the list.
-typedef struct screen_list {
-    occ_rect_block block[LISTED_BLOCKS];
-    uint32_t count; // the candidates beyond may be anywhere
-} screen_list;
-
-static void list_screen(screen_list *list, const occ_candidates *candidates)
+// Where a range's candidates are on the screen, in their order. Those beyond may be anywhere.
+static void list_candidates(rect_list *list, const occ_candidates *candidates)
 {
-    const uint32_t most = LISTED_BLOCKS * OCC_SHADOW_LANES;
-    list->count = candidates->count < most ? candidates->count : most;
+    list->count = candidates->count < LISTED_MOST ? candidates->count : LISTED_MOST;
     for (uint32_t i = 0; i < list->count; i++) {
         uint32_t s = candidates->list[i], lane = s % OCC_SHADOW_LANES;
-        copy_rect(&list->block[i / OCC_SHADOW_LANES], i % OCC_SHADOW_LANES,
-                  &candidates->set->rects[s / OCC_SHADOW_LANES], lane);
+        const occ_rect_block *block = &candidates->set->rects[s / OCC_SHADOW_LANES];
+        list->left[i] = block->min[0][lane];
+        list->right[i] = block->max[0][lane];
+        list->low[i] = block->min[1][lane];
+        list->high[i] = block->max[1][lane];
     }
 }
 
@@ -108,14 +104,15 @@ static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c,
 {
     uint32_t s = candidates->list[c];
     return holds_point(&candidates->set->wide[s], seen->x[k], seen->y[k], seen->z[k], e) &&
-           candidates->set->shadows[s].owner != row;
+           candidates->set->wide[s].owner != row;
 }
 
-static inline bool corner_is_held(const screen_list *list, const occ_candidates *candidates,
+static inline bool corner_is_held(const rect_list *list, const occ_candidates *candidates,
                                   uint32_t row, const occ_projection *seen, uint32_t k, float e)
 {
-    for (uint32_t i = 0, b = 0; i < list->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_point(&list->block[b], seen, k);
+    for (uint32_t i = 0; i < list->count; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(list, i);
+        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
         for (near = present(near, list->count - i); near; near &= near - 1u) {
             uint32_t c = i + (uint32_t)__builtin_ctz(near);
             if (candidate_holds(candidates, c, row, seen, k, e)) return true;
@@ -132,7 +129,7 @@ typedef struct range_fusion {
     const occ_eye *eye;
     const occ_screen *screen;
     const occ_candidates *candidates;
-    screen_list list;
+    rect_list list;
     uint32_t hint; // the corner that showed last
 } range_fusion;
 
@@ -154,7 +151,7 @@ static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row
     start_fusion(&fusion);
     for (uint32_t i = 0; i < candidates->count; i++) {
         uint32_t s = candidates->list[i];
-        if (candidates->set->shadows[s].owner == row) continue;
+        if (candidates->set->wide[s].owner == row) continue;
         if (consider(&fusion, box, &candidates->set->wide[s])) return true;
     }
     return fusion.candidates && fuse_candidates(&fusion, box, common->eye, common->range->frustum);
@@ -213,8 +210,9 @@ static inline void test_candidates(known_lanes *known, const object_lanes *lanes
     const occ_candidates *candidates = common->candidates;
     occ_projection seen;
     centers_on_screen(lanes, common->screen, known->open, &seen);
-    for (uint32_t i = 0, b = 0; i < common->list.count && known->open; i += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_box(&common->list.block[b], &seen);
+    for (uint32_t i = 0; i < common->list.count && known->open; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(&common->list, i);
+        uint32_t near = near_box(&rects, &seen);
         for (near = present(near, common->list.count - i); near; near &= near - 1u)
             test_candidate(known, lanes, row, candidates, i + (uint32_t)__builtin_ctz(near));
     }
@@ -232,7 +230,7 @@ static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const oc
     common.screen = screen;
     common.candidates = candidates;
     common.hint = 0;
-    list_screen(&common.list, candidates);
+    list_candidates(&common.list, candidates);
     for (uint32_t i = 0; i < range->count; i += OCC_WIDTH) {
         object_lanes lanes;
         uint32_t row = range->first + i, left = range->count - i;

@@ -66,21 +66,31 @@ static inline uint32_t present(uint32_t bits, uint32_t count)
     return count >= OCC_SHADOW_LANES ? bits : bits & ((1u << count) - 1u);
 }
 
-// Occluders of a block that may touch the box, by where they are on the screen.
-static inline uint32_t block_near_box(const occ_rect_block *block, const occ_projection *seen)
+// Where sixteen occluders are on the screen.
+typedef struct rect_lanes {
+    const float *left, *right, *low, *high;
+} rect_lanes;
+
+static inline rect_lanes rects_of_block(const occ_rect_block *block)
+{
+    return (rect_lanes){block->min[0], block->max[0], block->min[1], block->max[1]};
+}
+
+// Those that may touch the box.
+static inline uint32_t near_box(const rect_lanes *rects, const occ_projection *seen)
 {
     uint32_t bits = 0;
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        uint32_t near = not_above_wide(load_wide(block->min[0] + g), splat_wide(seen->max[0]));
-        near &= not_above_wide(splat_wide(seen->min[0]), load_wide(block->max[0] + g));
-        near &= not_above_wide(load_wide(block->min[1] + g), splat_wide(seen->max[1]));
-        near &= not_above_wide(splat_wide(seen->min[1]), load_wide(block->max[1] + g));
-        bits |= near << g;
+        fwide least[4] = {load_wide(rects->left + g), splat_wide(seen->min[0]),
+                          load_wide(rects->low + g), splat_wide(seen->min[1])};
+        fwide most[4] = {splat_wide(seen->max[0]), load_wide(rects->right + g),
+                         splat_wide(seen->max[1]), load_wide(rects->high + g)};
+        bits |= none_above_wide(least, most) << g;
     }
     return bits;
 }
 
-// Those that are no farther than `key`.
+// Those of a block that are no farther than `key`.
 static inline uint32_t block_before(const occ_rect_block *block, float key)
 {
     uint32_t bits = 0;
@@ -90,33 +100,40 @@ static inline uint32_t block_before(const occ_rect_block *block, float key)
 }
 
 // Those that may hold a point there.
-static inline uint32_t block_near(const occ_rect_block *block, float at_u, float at_v)
+static inline uint32_t near_point(const rect_lanes *rects, float at_u, float at_v)
 {
     uint32_t bits = 0;
     fwide u = splat_wide(at_u), v = splat_wide(at_v);
     for (uint32_t g = 0; g < OCC_SHADOW_LANES; g += OCC_WIDTH) {
-        uint32_t near = not_above_wide(load_wide(block->min[0] + g), u);
-        near &= not_above_wide(u, load_wide(block->max[0] + g));
-        near &= not_above_wide(load_wide(block->min[1] + g), v);
-        near &= not_above_wide(v, load_wide(block->max[1] + g));
-        bits |= near << g;
+        fwide least[4] = {load_wide(rects->left + g), u, load_wide(rects->low + g), v};
+        fwide most[4] = {u, load_wide(rects->right + g), v, load_wide(rects->high + g)};
+        bits |= none_above_wide(least, most) << g;
     }
     return bits;
 }
 
-static inline uint32_t block_near_point(const occ_rect_block *block, const occ_projection *seen,
-                                        uint32_t i)
+// Occluders gathered from blocks, side by side.
+#define LISTED_MOST 256u
+
+typedef struct rect_list {
+    float left[LISTED_MOST + OCC_SHADOW_LANES], right[LISTED_MOST + OCC_SHADOW_LANES];
+    float low[LISTED_MOST + OCC_SHADOW_LANES], high[LISTED_MOST + OCC_SHADOW_LANES];
+    uint32_t count;
+} rect_list;
+
+static inline rect_lanes rects_of_list(const rect_list *list, uint32_t i)
 {
-    return block_near(block, seen->u[i], seen->v[i]);
+    return (rect_lanes){list->left + i, list->right + i, list->low + i, list->high + i};
 }
 
-static inline void copy_rect(occ_rect_block *to, uint32_t lane, const occ_rect_block *from,
-                             uint32_t from_lane)
+// Appends the lanes of a block that `lanes` names; there is room for a block.
+static inline void append_rects(rect_list *list, const occ_rect_block *block, uint32_t lanes)
 {
-    for (uint32_t j = 0; j < 2; j++) {
-        to->min[j][lane] = from->min[j][from_lane];
-        to->max[j][lane] = from->max[j][from_lane];
-    }
+    const float *from[4] = {block->min[0], block->max[0], block->min[1], block->max[1]};
+    float *to[4] = {list->left, list->right, list->low, list->high};
+    for (uint32_t j = 0; j < 4; j++)
+        compress_sixteen(to[j] + list->count, from[j], lanes);
+    list->count += (uint32_t)__builtin_popcount(lanes);
 }
 
 // As occ_point_in_frustum(), for the corners.

@@ -6,7 +6,6 @@
 #include "lanes_fusion.h"
 #include "lanes_screen.h"
 
-#define NEAR_BLOCKS 16u
 #define NODE_GROUPS (OCC_NODE_LANES / OCC_NODE_WIDTH)
 
 static inline contact meet_asked(const occ_question *question, const occ_wide_shadow *shadow)
@@ -16,7 +15,7 @@ static inline contact meet_asked(const occ_question *question, const occ_wide_sh
 
 static inline bool is_own(const occ_question *question, const occ_shadow_set *set, uint32_t i)
 {
-    return set->shadows[i].owner - question->first < question->rows;
+    return set->wide[i].owner - question->first < question->rows;
 }
 
 // What holds the center may hide the box alone. Whether one does.
@@ -24,7 +23,8 @@ static inline bool ask_center(const occ_question *question, const occ_shadow_set
 {
     const float *t = question->box->t;
     for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_point(&set->rects[b], question->seen, 8);
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = near_point(&rects, question->seen->u[8], question->seen->v[8]);
         for (near = present(near, set->count - first); near; near &= near - 1u) {
             uint32_t i = first + (uint32_t)__builtin_ctz(near);
             if (!holds_point(&set->wide[i], t[0], t[1], t[2], question->box->e)) continue;
@@ -40,33 +40,26 @@ static inline bool ask_center(const occ_question *question, const occ_shadow_set
 // The occluders that may touch a box, gathered from all blocks. Those beyond the last are left out,
 // which can only show more.
 typedef struct near_list {
-    occ_rect_block block[NEAR_BLOCKS];
-    uint32_t count;
-    uint16_t planes[NEAR_BLOCKS * OCC_SHADOW_LANES]; // what cuts the box, once that is known
-    uint8_t state[NEAR_BLOCKS * OCC_SHADOW_LANES];   // NEAR_*
-    uint32_t index[NEAR_BLOCKS * OCC_SHADOW_LANES];
+    rect_list rects;
+    uint16_t planes[LISTED_MOST]; // what cuts the box, or NEAR_*
+    uint32_t index[LISTED_MOST + OCC_SHADOW_LANES];
 } near_list;
 
-#define NEAR_UNKNOWN  0u
-#define NEAR_TOUCHING 1u // it may hide the box together with others
-#define NEAR_USELESS  2u // apart, own, or the box is not behind its faces
+#define NEAR_UNKNOWN 0xffffu // not asked yet
+#define NEAR_USELESS 0xfffeu // apart, own, or the box is not behind its faces
 
 static inline void list_near(near_list *list, const occ_question *question,
                              const occ_shadow_set *set)
 {
-    uint32_t n = 0;
+    list->rects.count = 0;
     for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_box(&set->rects[b], question->seen);
-        for (near = present(near, set->count - first); near; near &= near - 1u) {
-            uint32_t lane = (uint32_t)__builtin_ctz(near);
-            if (n == NEAR_BLOCKS * OCC_SHADOW_LANES) break;
-            copy_rect(&list->block[n / OCC_SHADOW_LANES], n % OCC_SHADOW_LANES, &set->rects[b],
-                      lane);
-            list->state[n] = NEAR_UNKNOWN;
-            list->index[n++] = first + lane;
-        }
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = present(near_box(&rects, question->seen), set->count - first);
+        if (list->rects.count + OCC_SHADOW_LANES > LISTED_MOST) break;
+        compress_indices(list->index + list->rects.count, first, near);
+        append_rects(&list->rects, &set->rects[b], near);
     }
-    list->count = n;
+    memset(list->planes, 0xff, list->rects.count * sizeof *list->planes);
 }
 
 // Whether any of the list holds corner k.
@@ -74,9 +67,10 @@ static inline bool ask_corner(const occ_question *question, const occ_shadow_set
                               const near_list *list, uint32_t k)
 {
     const occ_projection *seen = question->seen;
-    for (uint32_t first = 0, b = 0; first < list->count; first += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_point(&list->block[b], seen, k);
-        for (near = present(near, list->count - first); near; near &= near - 1u) {
+    for (uint32_t first = 0; first < list->rects.count; first += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(&list->rects, first);
+        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
+        for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
             uint32_t i = list->index[first + (uint32_t)__builtin_ctz(near)];
             if (holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
                 !is_own(question, set, i))
@@ -92,7 +86,8 @@ static inline bool ask_first_corner(const occ_question *question, const occ_shad
 {
     const occ_projection *seen = question->seen;
     for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_point(&set->rects[b], seen, k);
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
         for (near = present(near, set->count - first); near; near &= near - 1u) {
             uint32_t i = first + (uint32_t)__builtin_ctz(near);
             if (holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
@@ -123,14 +118,13 @@ static inline bool corner_shows(const occ_question *question, const occ_shadow_s
 static inline bool is_candidate(near_list *list, uint32_t n, const occ_question *question,
                                 const occ_shadow_set *set)
 {
-    if (list->state[n] == NEAR_UNKNOWN) {
+    if (list->planes[n] == NEAR_UNKNOWN) {
         uint32_t i = list->index[n];
         contact met = meet_asked(question, &set->wide[i]);
         bool useless = met.apart || met.cutting >> OCC_FACE_LANE || is_own(question, set, i);
-        list->state[n] = useless ? NEAR_USELESS : NEAR_TOUCHING;
-        list->planes[n] = (uint16_t)met.cutting;
+        list->planes[n] = (uint16_t)(useless ? NEAR_USELESS : met.cutting);
     }
-    return list->state[n] == NEAR_TOUCHING;
+    return list->planes[n] != NEAR_USELESS;
 }
 
 // The first entry that holds the middle of a piece, or their number.
@@ -140,15 +134,16 @@ static inline uint32_t find_near(near_list *list, const occ_vertex *middle,
 {
     float u, v;
     project_vertex(screen, middle, &u, &v);
-    for (uint32_t first = 0, b = 0; first < list->count; first += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near(&list->block[b], u, v);
-        for (near = present(near, list->count - first); near; near &= near - 1u) {
+    for (uint32_t first = 0; first < list->rects.count; first += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(&list->rects, first);
+        uint32_t near = near_point(&rects, u, v);
+        for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
             uint32_t n = first + (uint32_t)__builtin_ctz(near);
             if (!is_candidate(list, n, question, set)) continue;
             if (holds(&set->wide[list->index[n]], list->planes[n], middle)) return n;
         }
     }
-    return list->count;
+    return list->rects.count;
 }
 
 // As covers(), with what of the list is needed.
@@ -162,7 +157,7 @@ static inline bool covers_near(near_list *list, const occ_question *question,
     for (uint32_t split = 0; fusion.depth; split++) {
         occ_vertex middle = middle_of(&fusion.stack[fusion.depth - 1]);
         uint32_t n = find_near(list, &middle, question, set, screen);
-        if (n == list->count || split == eye->splits ||
+        if (n == list->rects.count || split == eye->splits ||
             !subtract(&fusion, &set->wide[list->index[n]], list->planes[n])) {
             return false;
         }
@@ -194,7 +189,8 @@ static bool gather(const occ_question *question, const occ_shadow_set *set, uint
 {
     uint32_t listed = 0;
     for (uint32_t i = 0, b = 0; i < set->count; i += OCC_SHADOW_LANES, b++) {
-        uint32_t near = block_near_box(&set->rects[b], question->seen);
+        rect_lanes rects = rects_of_block(&set->rects[b]);
+        uint32_t near = near_box(&rects, question->seen);
         near &= block_before(&set->rects[b], question->key);
         for (near = present(near, set->count - i); near; near &= near - 1u) {
             uint32_t s = i + (uint32_t)__builtin_ctz(near);

@@ -41,12 +41,33 @@ bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)
     return (double)reach >= (double)frame->knobs.min_area * area;
 }
 
-// Where an occluder is on the screen, with more room than projections round (2^-13).
-static void put_rect(occ_rect_block *block, uint32_t lane, const occ_projection *seen, float key)
+// How far outside of its bounds on the screen an occluder's shadow may reach. Projections round by
+// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by less
+// than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) / (w +
+// dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
+static float room_around(const occ_camera *camera, const occ_projection *seen, int j)
+{
+    const occ_screen *screen = &camera->screen;
+    float most = fmaxf(fabsf(seen->min[j]), fabsf(seen->max[j])), room = (1.0f + most) * 0x1p-10f;
+    if (!(camera->tolerance > 0.0) || camera->orthographic) return room;
+    const float *x = screen->row[j], *w = screen->row[2];
+    float least = INFINITY, t = (float)camera->tolerance;
+    for (int k = 0; k < 8; k++) {
+        float size = OCC_NORM1(seen->x[k], seen->y[k], seen->z[k]);
+        least = fminf(least, (w[0] * seen->x[k] + w[1] * seen->y[k] + w[2] * seen->z[k]) / size);
+    }
+    float dx = t * OCC_NORM1(x[0], x[1], x[2]), dw = t * OCC_NORM1(w[0], w[1], w[2]);
+    return least > dw ? room + 1.01f * (dx + most * dw) / (least - dw) : INFINITY;
+}
+
+// Where an occluder is on the screen, with room to spare.
+static void put_rect(occ_rect_block *block, uint32_t lane, const occ_camera *camera,
+                     const occ_projection *seen, float key)
 {
     for (int j = 0; j < 2; j++) {
-        block->min[j][lane] = seen->min[j] - (1.0f + fabsf(seen->min[j])) * 0x1p-10f;
-        block->max[j][lane] = seen->max[j] + (1.0f + fabsf(seen->max[j])) * 0x1p-10f;
+        float room = room_around(camera, seen, j);
+        block->min[j][lane] = seen->min[j] - room;
+        block->max[j][lane] = seen->max[j] + room;
     }
     block->key[lane] = key;
 }
@@ -56,11 +77,11 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     const occ_scene *scene = frame->scene;
     uint32_t slot = scene->occluder_rows.slot_of[row], owner = occ_scene_owner_row(scene, row);
     uint32_t lane = frame->shadows.count % OCC_SHADOW_LANES;
-    occ_shadow *shadow = occ_array_extend(frame->hooks, &frame->shadows, 1);
-    occ_wide_shadow *wide = occ_array_extend(frame->hooks, &frame->wide, 1);
-    occ_occluder *source = occ_array_extend(frame->hooks, &frame->sources, 1);
+    occ_shadow *shadow = occ_frame_extend(frame, &frame->shadows, 1);
+    occ_wide_shadow *wide = occ_frame_extend(frame, &frame->wide, 1);
+    occ_occluder *source = occ_frame_extend(frame, &frame->sources, 1);
     if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
-    if (!occ_array_extend(frame->hooks, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
+    if (!occ_frame_extend(frame, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
     if (!occ_shadow_init(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);
@@ -68,7 +89,8 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     if (!lane)
         ((occ_rect_block *)frame->rects.data)[frame->rects.count++] =
             (occ_rect_block){.key = {0.0f}};
-    put_rect((occ_rect_block *)frame->rects.data + frame->rects.count - 1, lane, seen, key);
+    put_rect((occ_rect_block *)frame->rects.data + frame->rects.count - 1, lane, &frame->camera,
+             seen, key);
     frame->shadows.count++;
     frame->wide.count++;
     frame->sources.count++;

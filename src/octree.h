@@ -3,8 +3,8 @@
 // are to lie and which ranges of that order its nodes are.
 //
 // An item belongs to the cell that holds its bounds' middle, on the deepest level whose cells are
-// at least half as wide as the bounds (a loose octree: Ulrich, Game Programming Gems 1, 2000). Its key
-// is that cell's Morton code (Morton 1966) followed by the level:
+// at least half as wide as the bounds (a loose octree: Ulrich, Game Programming Gems 1, 2000). Its
+// key is that cell's Morton code (Morton 1966) followed by the level:
 //
 //     bit 61                      5 4      0
 //        | 19 x 3 bits of x, y, z  | level |      cells above level 19 pad their code with zeros

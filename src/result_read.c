@@ -6,9 +6,8 @@
 
 #include <string.h>
 
-// Sets *count to what is needed and says whether the caller's array holds it.
-static occ_result fits(const occ_view *view, const void *array, size_t capacity, size_t needed,
-                       size_t *count)
+occ_result occ_view_fits(const occ_view *view, const void *array, size_t capacity, size_t needed,
+                         size_t *count)
 {
     if (count) *count = needed;
     if (needed <= capacity && (array || !needed)) return OCC_SUCCESS;
@@ -21,7 +20,7 @@ static occ_result fits(const occ_view *view, const void *array, size_t capacity,
                     capacity, needed);
 }
 
-static occ_result check(const occ_view *view, size_t *count)
+occ_result occ_view_check(const occ_view *view, size_t *count)
 {
     if (count) *count = 0;
     if (!view) return OCC_ERROR_INVALID_ARGUMENT;
@@ -31,8 +30,8 @@ static occ_result check(const occ_view *view, size_t *count)
 
 occ_result occ_view_read_mask(const occ_view *view, uint32_t *words, size_t capacity, size_t *count)
 {
-    occ_result result = check(view, count);
-    if (!result) result = fits(view, words, capacity, view->mask.count, count);
+    occ_result result = occ_view_check(view, count);
+    if (!result) result = occ_view_fits(view, words, capacity, view->mask.count, count);
     if (!result && view->mask.count) {
         memcpy(words, view->mask.data, (size_t)view->mask.count * sizeof *words);
     }
@@ -42,8 +41,8 @@ occ_result occ_view_read_mask(const occ_view *view, uint32_t *words, size_t capa
 occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots, size_t capacity,
                                  size_t *count)
 {
-    occ_result result = check(view, count);
-    if (!result) result = fits(view, slots, capacity, view->frame.stats.visible, count);
+    occ_result result = occ_view_check(view, count);
+    if (!result) result = occ_view_fits(view, slots, capacity, view->frame.stats.visible, count);
     if (result) return result;
     const uint32_t *mask = view->mask.data;
     for (uint32_t w = 0; w < view->mask.count; w++)
@@ -55,8 +54,9 @@ occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots, size_t c
 occ_result occ_view_read_occluders(const occ_view *view, occ_occluder *occluders, size_t capacity,
                                    size_t *count)
 {
-    occ_result result = check(view, count);
-    if (!result) result = fits(view, occluders, capacity, view->frame.sources.count, count);
+    occ_result result = occ_view_check(view, count);
+    if (!result)
+        result = occ_view_fits(view, occluders, capacity, view->frame.sources.count, count);
     if (!result && view->frame.sources.count) {
         memcpy(occluders, view->frame.sources.data,
                (size_t)view->frame.sources.count * sizeof *occluders);
@@ -75,7 +75,7 @@ occ_result occ_view_get_stats(const occ_view *view, occ_view_stats *stats)
 {
     if (!view) return OCC_ERROR_INVALID_ARGUMENT;
     if (!stats) return occ_fail(&view->hooks, OCC_ERROR_INVALID_ARGUMENT, "the stats are NULL");
-    occ_result result = check(view, NULL);
+    occ_result result = occ_view_check(view, NULL);
     if (!result) *stats = view->frame.stats;
     return result;
 }

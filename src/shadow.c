@@ -124,7 +124,7 @@ static double cross_error(const double from[3], const double axis[3])
     double most = 0.0;
     for (int j = 0; j < 3; j++) {
         int p = (j + 1) % 3, q = (j + 2) % 3;
-        most = fmax(most, from[p] * fabs(axis[q]) + from[q] * fabs(axis[p]));
+        most = occ_larger(most, from[p] * fabs(axis[q]) + from[q] * fabs(axis[p]));
     }
     return 8.0 * EPS * most;
 }

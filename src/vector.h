@@ -4,6 +4,8 @@
 #define OCC_VECTOR_H
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 static inline double occ_dot(const double a[3], const double b[3])
 {
@@ -23,17 +25,35 @@ static inline void occ_cross(const double a[3], const double b[3], double out[3]
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+// The larger of two numbers. (fmax() minds NaN, and is a call.)
+static inline double occ_larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static inline double occ_largest(const double a[3])
 {
-    return fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+    return occ_larger(fabs(a[0]), occ_larger(fabs(a[1]), fabs(a[2])));
+}
+
+// occ_unit_scale() of numbers whose exponent is out of the ordinary.
+static inline double exact_unit_scale(double value)
+{
+    int exponent;
+    (void)frexp(value, &exponent);
+    return ldexp(1.0, -exponent);
 }
 
 // 2^-e for the e that puts |value| into [1/2, 1); value must be neither 0 nor infinite.
 static inline double occ_unit_scale(double value)
 {
-    int exponent;
-    (void)frexp(value, &exponent);
-    return ldexp(1.0, -exponent);
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    uint64_t exponent = bits >> 52;
+    if (exponent - 1u >= 2043u) return exact_unit_scale(value);
+    bits = (2045u - exponent) << 52;
+    memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
 #endif

@@ -14,20 +14,6 @@ typedef struct open_range {
     uint32_t planes;
 } open_range;
 
-static occ_relative_box relative_node(const occ_frame *frame, const occ_node *node)
-{
-    const occ_eye *eye = &frame->camera.constants;
-    occ_relative_box box = {{0}, {0}, 0.0f};
-    for (int j = 0; j < 3; j++) {
-        float min = OCC_RELATIVE(node->min[j], eye->high[j], eye->low[j]);
-        float max = OCC_RELATIVE(node->max[j], eye->high[j], eye->low[j]);
-        box.t[j] = OCC_MIDDLE(min, max);
-        box.a[4 * j] = OCC_HALF(min, max);
-    }
-    box.e = occ_box_slack(&box, eye->slack_floor);
-    return box;
-}
-
 static float nearness_of_node(const occ_frame *frame, const occ_relative_box *box)
 {
     float h[3] = {box->a[0], box->a[4], box->a[8]};
@@ -73,7 +59,11 @@ static occ_result leave_open(occ_frame *frame, const occ_walk_entry *entry, uint
     open_range *range = occ_array_push(frame->hooks, &frame->open);
     if (!range) return OCC_ERROR_OUT_OF_MEMORY;
     *range = (open_range){first, count, entry->index, entry->what & OCC_WALK_PLANES};
-    return OCC_SUCCESS;
+    const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
+    occ_relative_box box = occ_frame_relative_node(frame, node);
+    float h[3] = {box.a[0], box.a[4], box.a[8]};
+    occ_walk_entry closing = {occ_frame_farness(frame, box.t, h), frame->open.count - 1, 0};
+    return occ_heap_push(frame->hooks, &frame->closing, &closing);
 }
 
 // Cuts a run of rows into ranges that share the candidates from `begin` on.
@@ -82,37 +72,85 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
     uint32_t listed = frame->candidates.count - begin;
     frame->stats.tested += open->count;
     for (uint32_t i = 0; i < open->count; i += OCC_RANGE_OBJECTS) {
-        occ_range *range = occ_array_push(frame->hooks, &frame->ranges);
-        if (!range) return OCC_ERROR_OUT_OF_MEMORY;
+        occ_range *range = occ_frame_extend(frame, &frame->ranges, 1);
+        if (!range || !occ_frame_extend(frame, &frame->verdicts, 1)) return OCC_ERROR_OUT_OF_MEMORY;
+        frame->ranges.count++;
+        frame->verdicts.count++;
         uint32_t left = open->count - i < OCC_RANGE_OBJECTS ? open->count - i : OCC_RANGE_OBJECTS;
         *range = (occ_range){open->first + i, left, begin, listed, open->planes, is_fused(frame)};
     }
+    occ_stream_offer(frame->stream, frame->ranges.count);
     return OCC_SUCCESS;
 }
 
+// How much of the screen an occluder takes up.
+static float shown_area(const occ_shadow_set *set, uint32_t i)
+{
+    const occ_rect_block *block = &set->rects[i / OCC_SHADOW_LANES];
+    float area = 1.0f;
+    for (uint32_t j = 0; j < 2; j++) {
+        float min = block->min[j][i % OCC_SHADOW_LANES], max = block->max[j][i % OCC_SHADOW_LANES];
+        area *= (max < 1.0f ? max : 1.0f) - (min > -1.0f ? min : -1.0f);
+    }
+    return area;
+}
+
+static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t count)
+{
+    float area[64];
+    if (count > 64) return;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t s = list[i], k = i;
+        float a = shown_area(set, s);
+        for (; k > 0 && area[k - 1] < a; k--) {
+            area[k] = area[k - 1];
+            list[k] = list[k - 1];
+        }
+        area[k] = a;
+        list[k] = s;
+    }
+}
+
 // Lists the candidates of a range: the occluders that are near enough and touch it.
-static occ_result close_range(occ_frame *frame, const open_range *open)
+static occ_result close_range(occ_frame *frame, float key, const open_range *open)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + open->node;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen = project(frame, &box);
-    float h[3] = {box.a[0], box.a[4], box.a[8]};
     occ_shadow_set set = occ_occluders_so_far(frame);
-    uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, (size_t)set.count + 1);
+    uint32_t *list = occ_frame_extend(frame, &frame->candidates, (size_t)set.count + 1);
     if (!list) return OCC_ERROR_OUT_OF_MEMORY;
     occ_question question = {.box = &box,
                              .seen = &seen,
                              .first = open->first,
                              .rows = open->count,
-                             .key = occ_frame_farness(frame, box.t, h),
+                             .key = key,
                              .upright = true};
     uint32_t begin = frame->candidates.count, count;
     if (frame->lanes->gather(&question, &set, list, &count)) {
         frame->stats.walk_hidden += open->count;
         return OCC_SUCCESS;
     }
+    largest_first(&set, list, count);
     frame->candidates.count += count;
     return add_ranges(frame, open, begin);
+}
+
+static occ_result close_first(occ_frame *frame)
+{
+    occ_walk_entry next = occ_heap_pop(&frame->closing);
+    return close_range(frame, next.key, (const open_range *)frame->open.data + next.index);
+}
+
+// Closes the ranges that are wholly nearer than what is still to be looked at: no occluder that is
+// found from here on can hide any of them.
+static occ_result close_nearer(occ_frame *frame, float key)
+{
+    const occ_walk_entry *heap = frame->closing.data;
+    occ_result result = OCC_SUCCESS;
+    while (!result && frame->closing.count && heap[0].key < key)
+        result = close_first(frame);
+    return result;
 }
 
 // --- occluders -----------------------------------------------------------------------------------
@@ -153,7 +191,7 @@ static occ_result push_child(occ_frame *frame, const occ_siblings *siblings, uin
 {
     const occ_node *nodes = occ_octree_nodes(&frame->scene->object_tree);
     const occ_node *child = &siblings->nodes[c];
-    occ_relative_box box = relative_node(frame, child);
+    occ_relative_box box = occ_frame_relative_node(frame, child);
     occ_walk_entry entry = {nearness_of_node(frame, &box), (uint32_t)(child - nodes),
                             OCC_WALK_NODE | siblings->frustum_of[c]};
     return occ_heap_push(frame->hooks, &frame->heap, &entry);
@@ -186,7 +224,7 @@ static occ_result open_node(occ_frame *frame, const occ_walk_entry *entry)
     bool whole = !node->children || node->count <= frame->knobs.grain;
     uint32_t rows = whole ? node->count : occ_node_own(tree, node);
     if (rows && leave_open(frame, entry, node->first, rows)) return OCC_ERROR_OUT_OF_MEMORY;
-    if (rows && frame->scene->attached.count) {
+    if (rows && frame->scene->attached.count && frame->knobs.method != OCC_METHOD_FRUSTUM) {
         const occ_attached *attached = frame->scene->attached.data;
         uint32_t first = attached[entry->index].first, count = attached[entry->index].count;
         if (!whole) count = attached[node->child].first - first;
@@ -201,7 +239,7 @@ static occ_result open_node(occ_frame *frame, const occ_walk_entry *entry)
 static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     if (is_hidden(frame, &box, &seen, planes, node->first, node->count)) {
@@ -214,7 +252,7 @@ static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 static occ_result push_free(occ_frame *frame, uint32_t index, uint32_t planes)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->occluder_tree) + index;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_walk_entry entry = {nearness_of_node(frame, &box), index, OCC_WALK_FREE | planes};
     float reach = ((const float *)frame->scene->reach.data)[index];
     if (!occ_occluder_may_be_large(frame, reach, entry.key)) return OCC_SUCCESS;
@@ -226,7 +264,7 @@ static occ_result visit_free(occ_frame *frame, const occ_walk_entry *entry)
 {
     const occ_octree *tree = &frame->scene->occluder_tree;
     const occ_node *node = occ_octree_nodes(tree) + entry->index;
-    occ_relative_box box = relative_node(frame, node);
+    occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     frame->stats.nodes_tested++;
@@ -303,8 +341,9 @@ occ_result occ_walk(occ_frame *frame)
 {
     frame->heap.element = sizeof(occ_walk_entry);
     frame->open.element = sizeof(open_range);
-    frame->heap.count = frame->open.count = 0;
-    frame->ranges.count = frame->candidates.count = 0;
+    frame->closing.element = sizeof(occ_walk_entry);
+    frame->heap.count = frame->open.count = frame->closing.count = 0;
+    frame->ranges.count = frame->verdicts.count = frame->candidates.count = 0;
     occ_occluders_clear(frame);
     occ_result result = OCC_SUCCESS;
     if (frame->knobs.method == OCC_METHOD_PAIRWISE) {
@@ -313,11 +352,11 @@ occ_result occ_walk(occ_frame *frame)
         result = push_roots(frame);
         while (!result && frame->heap.count) {
             occ_walk_entry entry = occ_heap_pop(&frame->heap);
-            result = visit(frame, &entry);
+            result = close_nearer(frame, entry.key);
+            if (!result) result = visit(frame, &entry);
         }
-        const open_range *open = frame->open.data;
-        for (uint32_t i = 0; i < frame->open.count && !result; i++)
-            result = close_range(frame, &open[i]);
+        while (!result && frame->closing.count)
+            result = close_first(frame);
     }
     frame->stats.occluders_used = frame->shadows.count;
     frame->stats.ranges = frame->ranges.count;

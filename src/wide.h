@@ -109,6 +109,20 @@ static inline uint32_t not_above_wide(fwide x, fwide y)
 #endif
 }
 
+// Bits of the lanes in which none of four is above its partner.
+static inline uint32_t none_above_wide(const fwide x[4], const fwide y[4])
+{
+#if OCC_WIDTH == 16
+    __mmask16 bits = _mm512_cmp_ps_mask((__m512)x[0], (__m512)y[0], _CMP_NGT_UQ);
+    bits = _mm512_mask_cmp_ps_mask(bits, (__m512)x[1], (__m512)y[1], _CMP_NGT_UQ);
+    bits = _mm512_mask_cmp_ps_mask(bits, (__m512)x[2], (__m512)y[2], _CMP_NGT_UQ);
+    return _mm512_mask_cmp_ps_mask(bits, (__m512)x[3], (__m512)y[3], _CMP_NGT_UQ);
+#else
+    return not_above_wide(x[0], y[0]) & not_above_wide(x[1], y[1]) & not_above_wide(x[2], y[2]) &
+           not_above_wide(x[3], y[3]);
+#endif
+}
+
 static inline fnode splat_node(float x)
 {
     return x - (fnode){0.0f};
@@ -185,6 +199,30 @@ static inline float largest_of_eight(const float *x)
         a[i] = x[i] > x[i + 4] ? x[i] : x[i + 4];
     float b = a[0] > a[1] ? a[0] : a[1], c = a[2] > a[3] ? a[2] : a[3];
     return b > c ? b : c;
+}
+
+// Packs those of sixteen floats that `lanes` names. May write up to sixteen.
+static inline void compress_sixteen(float *to, const float *from, uint32_t lanes)
+{
+#if OCC_WIDTH == 16
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)lanes, _mm512_loadu_ps(from)));
+#else
+    for (; lanes; lanes &= lanes - 1u)
+        *to++ = from[__builtin_ctz(lanes)];
+#endif
+}
+
+// Appends first + l for every lane l of sixteen that `lanes` names. May write up to sixteen.
+static inline void compress_indices(uint32_t *to, uint32_t first, uint32_t lanes)
+{
+#if OCC_WIDTH == 16
+    const __m512i iota = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    __m512i index = _mm512_add_epi32(iota, _mm512_set1_epi32((int)first));
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)lanes, index));
+#else
+    for (; lanes; lanes &= lanes - 1u)
+        *to++ = first + (uint32_t)__builtin_ctz(lanes);
+#endif
 }
 
 #endif

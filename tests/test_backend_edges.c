@@ -146,12 +146,18 @@ static void begin(void)
 
 static void check_backend(occ_tester *backend, world *w, const char *lanes)
 {
+    static occ_wide_shadow wide[SHADOWS];
+    static const occ_rect_block rects[SHADOWS / OCC_SHADOW_LANES]; // fusion alone reads them
+    static const occ_screen screen;
+    for (uint32_t i = 0; i < SHADOWS; i++)
+        occ_wide_shadow_set(&wide[i], &w->shadows[i]);
+    const occ_shadow_set set = {w->shadows, wide, rects, SHADOWS};
     occ_verdict verdicts[RANGES];
     memset(verdicts, 0x5a, sizeof verdicts);
     occ_test_job job = {.scene = w->scene,
                         .eye = &w->eye,
-                        .shadows = w->shadows,
-                        .shadow_count = SHADOWS,
+                        .screen = &screen,
+                        .set = &set,
                         .ranges = w->ranges,
                         .range_count = RANGES,
                         .candidates = w->candidates,

@@ -4,6 +4,7 @@
 // on the edge of a verdict.
 #include "frame.h"
 #include "kit_edge.h"
+#include "kit_set.h"
 #include "support.h"
 
 #include <string.h>
@@ -21,60 +22,6 @@ static void list_lanes(void)
     ck_assert_str_eq(lanes[lane_count - 1]->name, "plain");
 }
 
-// --- one box, many shadows -----------------------------------------------------------------------
-
-// Each lane's shadow holds the box in most planes, so that the last may decide.
-static void fill_block(kit_random *random, const occ_relative_box *box, float size,
-                       occ_shadow_block *block)
-{
-    for (uint32_t l = 0; l < OCC_SHADOW_LANES; l++) {
-        uint32_t planes = 1 + kit_below(random, OCC_SHADOW_PLANES);
-        float plane[4] = {0};
-        for (uint32_t p = 0; p < OCC_SHADOW_PLANES; p++) {
-            if (p < planes) edge_plane(random, box, size, plane);
-            for (int j = 0; j < 4; j++)
-                block->plane[p][j][l] = plane[j];
-        }
-    }
-}
-
-static bool block_hides(const occ_shadow_block *block, const occ_relative_box *box)
-{
-    for (uint32_t l = 0; l < OCC_SHADOW_LANES; l++) {
-        float planes[OCC_SHADOW_PLANES][4];
-        for (uint32_t p = 0; p < OCC_SHADOW_PLANES; p++)
-            for (int j = 0; j < 4; j++)
-                planes[p][j] = block->plane[p][j][l];
-        if (occ_box_in_shadow(box, planes[0], OCC_SHADOW_PLANES)) return true;
-    }
-    return false;
-}
-
-START_TEST(every_instruction_set_finds_the_same_boxes_hidden)
-{
-    enum { MOST_BLOCKS = 3 };
-    kit_random random = {11};
-    unsigned held = 0;
-    occ_shadow_block blocks[MOST_BLOCKS];
-    for (unsigned i = 0; i < ROUNDS / 4; i++) {
-        float size = edge_size(&random);
-        occ_relative_box box = edge_box(&random, size, 0x1p-80f);
-        uint32_t count = kit_below(&random, MOST_BLOCKS + 1);
-        bool expected = false;
-        for (uint32_t b = 0; b < count; b++) {
-            fill_block(&random, &box, size, &blocks[b]);
-            expected |= block_hides(&blocks[b], &box);
-        }
-        held += expected;
-        for (unsigned v = 0; v < lane_count; v++)
-            if (lanes[v]->any_hides(blocks, count, &box) != expected)
-                ck_abort_msg("%s in round %u, where C says %d", lanes[v]->name, i, expected);
-    }
-    ck_assert_uint_gt(held, ROUNDS / 40);
-    ck_assert_uint_lt(held, ROUNDS / 4 - ROUNDS / 40);
-}
-END_TEST
-
 // --- siblings ------------------------------------------------------------------------------------
 
 typedef struct family {
@@ -85,7 +32,7 @@ typedef struct family {
     float size;
 } family;
 
-// As load_nodes() in lanes.c promises.
+// As load_nodes() in lanes_walk.h promises.
 static occ_relative_box bounds_of(const occ_node *node, const occ_eye *eye)
 {
     occ_relative_box box = {.a = {0}};
@@ -143,7 +90,7 @@ static void make_family(kit_random *random, family *f)
 static void cut_plainly(const family *f, occ_siblings *out)
 {
     *out = f->siblings;
-    out->outside = out->hidden = 0;
+    out->outside = 0;
     for (uint32_t c = 0; c < out->count; c++) {
         out->frustum_of[c] = out->frustum;
         for (uint32_t p = 0; p < OCC_FRUSTUM_PLANES; p++) {
@@ -154,71 +101,32 @@ static void cut_plainly(const family *f, occ_siblings *out)
     }
 }
 
-// A child's candidates are those that touch it, up to the one that hides it.
-static void shade_plainly(const family *f, const occ_candidates *candidates, occ_siblings *out,
-                          uint8_t *touched)
-{
-    for (uint32_t i = 0; i < candidates->count; i++) {
-        const occ_shadow *shadow = &candidates->shadows[candidates->list[i]];
-        uint32_t decided = out->outside | out->hidden;
-        if (i && decided == (1u << out->count) - 1u) return; // nobody asks for the rest
-        touched[i] = 0;
-        for (uint32_t c = 0; c < out->count; c++) {
-            bool outside = false, inside = true;
-            for (uint32_t p = 0; p < shadow->planes; p++) {
-                outside |= node_outside(&f->boxes[c], shadow->plane[p]);
-                inside &= node_inside(&f->boxes[c], shadow->plane[p]);
-            }
-            if (decided >> c & 1u || outside) continue;
-            touched[i] |= (uint8_t)(1u << c);
-            bool owns = shadow->owner >= f->nodes[c].first &&
-                        shadow->owner < f->nodes[c].first + f->nodes[c].count;
-            if (inside && !owns) out->hidden |= 1u << c;
-        }
-    }
-}
-
 static bool same_siblings(const occ_siblings *a, const occ_siblings *b)
 {
-    return a->outside == b->outside && a->hidden == b->hidden &&
+    return a->outside == b->outside &&
            !memcmp(a->frustum_of, b->frustum_of, a->count * sizeof *a->frustum_of);
 }
 
 START_TEST(every_instruction_set_decides_siblings_alike)
 {
-    enum { MOST = 12 };
     kit_random random = {12};
-    unsigned outside = 0, hidden = 0;
-    occ_shadow shadows[MOST];
-    uint32_t list[MOST];
+    unsigned outside = 0, cleared = 0;
     for (unsigned i = 0; i < ROUNDS; i++) {
         family f;
-        make_family(&random, &f);
-        occ_candidates candidates = {
-            .shadows = shadows, .list = list, .count = kit_below(&random, MOST + 1)};
-        for (uint32_t k = 0; k < candidates.count; k++) {
-            list[k] = candidates.count - 1 - k;
-            edge_shadow(&random, &f.boxes[kit_below(&random, f.siblings.count)], f.size, 1400,
-                        &shadows[k]);
-        }
         occ_siblings expected;
-        uint8_t expected_touched[MOST] = {0}, touched[MOST];
+        make_family(&random, &f);
         cut_plainly(&f, &expected);
-        shade_plainly(&f, &candidates, &expected, expected_touched);
         outside += expected.outside != 0;
-        hidden += expected.hidden != 0;
+        cleared += expected.frustum_of[0] != expected.frustum;
         for (unsigned v = 0; v < lane_count; v++) {
             occ_siblings siblings = f.siblings;
-            memset(touched, 0, sizeof touched);
             lanes[v]->cut(&siblings, &f.eye);
-            lanes[v]->shade(&siblings, &f.eye, &candidates, touched);
-            if (!same_siblings(&siblings, &expected) ||
-                memcmp(touched, expected_touched, MOST) != 0)
+            if (!same_siblings(&siblings, &expected))
                 ck_abort_msg("%s in round %u", lanes[v]->name, i);
         }
     }
     ck_assert_uint_gt(outside, ROUNDS / 20);
-    ck_assert_uint_gt(hidden, ROUNDS / 20);
+    ck_assert_uint_gt(cleared, ROUNDS / 20);
 }
 END_TEST
 
@@ -255,6 +163,22 @@ static occ_relative_box row_of(const crowd *c, uint32_t row)
     return occ_frame_relative(&frame, &box);
 }
 
+static bool hides_row(const crowd *c, const occ_range *range, const occ_candidates *candidates,
+                      const occ_relative_box *box, uint32_t row)
+{
+    const occ_shadow *shadows = candidates->set->shadows;
+    if (range->fused) {
+        return occ_box_fused(box, &c->eye, range->frustum, shadows, candidates->list,
+                             candidates->count, row);
+    }
+    for (uint32_t k = 0; k < candidates->count; k++) {
+        const occ_shadow *shadow = &shadows[candidates->list[k]];
+        if (shadow->owner != row && occ_box_in_shadow(box, shadow->plane[0], shadow->planes))
+            return true;
+    }
+    return false;
+}
+
 static occ_verdict test_plainly(const crowd *c, const occ_range *range,
                                 const occ_candidates *candidates)
 {
@@ -264,20 +188,44 @@ static occ_verdict test_plainly(const crowd *c, const occ_range *range,
         uint32_t bit = 1u << i % 32;
         if (occ_box_outside(&box, c->eye.plane[0], range->frustum)) {
             verdict.outside[i / 32] |= bit;
-            continue;
+        } else if (!hides_row(c, range, candidates, &box, range->first + i)) {
+            verdict.visible[i / 32] |= bit;
         }
-        bool hidden = false;
-        for (uint32_t k = 0; k < candidates->count; k++) {
-            const occ_shadow *shadow = &candidates->shadows[candidates->list[k]];
-            hidden |= shadow->owner != range->first + i &&
-                      occ_box_in_shadow(&box, shadow->plane[0], shadow->planes);
-        }
-        if (!hidden) verdict.visible[i / 32] |= bit;
     }
     return verdict;
 }
 
-START_TEST(every_instruction_set_decides_objects_alike)
+// A range, planes of the frustum on the edges of its objects, and how far fusion may go.
+static occ_range any_range(kit_random *random, crowd *c, bool fused)
+{
+    occ_range range = {.first = kit_below(random, ROWS - OCC_RANGE_OBJECTS + 1), .fused = fused};
+    range.count = 1 + kit_below(random, OCC_RANGE_OBJECTS);
+    range.frustum = kit_below(random, 1u << OCC_FRUSTUM_PLANES);
+    for (int p = 0; p < OCC_FRUSTUM_PLANES; p++) {
+        occ_relative_box edge = row_of(c, range.first + kit_below(random, range.count));
+        edge_plane(random, &edge, c->size, c->eye.plane[p]);
+    }
+    c->eye.splits = kit_below(random, 50);
+    c->eye.toward[2] = c->eye.toward[3] = kit_below(random, 4) ? 0.0f : 1.0f;
+    return range;
+}
+
+static void any_candidates(kit_random *random, const crowd *c, const occ_range *range, kit_set *set,
+                           uint32_t *list)
+{
+    uint32_t count = kit_below(random, MOST_CANDIDATES + 1);
+    for (set->count = 0; set->count < count;) {
+        occ_relative_box edge = row_of(c, range->first + kit_below(random, range->count));
+        occ_shadow shadow;
+        list[set->count] = count - 1 - set->count;
+        edge_shadow(random, &edge, c->size, ROWS, &shadow);
+        kit_set_add(set, &shadow);
+    }
+}
+
+static const occ_screen nowhere;
+
+static void test_objects(bool fused)
 {
     kit_random random = {13};
     crowd c = {.size = 0.0f};
@@ -285,28 +233,18 @@ START_TEST(every_instruction_set_decides_objects_alike)
     static const occ_logger silence;
     ck_assert_int_eq(occ_hooks_init(&c.hooks, &heap, &silence), OCC_SUCCESS);
     ck_assert_int_eq(occ_boxes_reserve(&c.hooks, &c.boxes, ROWS), OCC_SUCCESS);
-    occ_shadow shadows[MOST_CANDIDATES];
+    kit_set set;
     uint32_t list[MOST_CANDIDATES];
     unsigned outside = 0, hidden = 0, visible = 0;
     for (unsigned i = 0; i < ROUNDS / 8; i++) {
         if (i % 4 == 0) make_crowd(&random, &c);
-        occ_range range = {.first = kit_below(&random, ROWS - OCC_RANGE_OBJECTS + 1)};
-        range.count = 1 + kit_below(&random, OCC_RANGE_OBJECTS);
-        range.frustum = kit_below(&random, 1u << OCC_FRUSTUM_PLANES);
-        for (int p = 0; p < OCC_FRUSTUM_PLANES; p++) {
-            occ_relative_box edge = row_of(&c, range.first + kit_below(&random, range.count));
-            edge_plane(&random, &edge, c.size, c.eye.plane[p]);
-        }
-        occ_candidates candidates = {
-            .shadows = shadows, .list = list, .count = kit_below(&random, MOST_CANDIDATES + 1)};
-        for (uint32_t k = 0; k < candidates.count; k++) {
-            occ_relative_box edge = row_of(&c, range.first + kit_below(&random, range.count));
-            list[k] = candidates.count - 1 - k;
-            edge_shadow(&random, &edge, c.size, ROWS, &shadows[k]);
-        }
+        occ_range range = any_range(&random, &c, fused);
+        any_candidates(&random, &c, &range, &set, list);
+        const occ_shadow_set view = kit_set_view(&set);
+        occ_candidates candidates = {&view, list, view.count};
         occ_verdict expected = test_plainly(&c, &range, &candidates);
         for (unsigned v = 0; v < lane_count; v++) {
-            occ_verdict said = lanes[v]->test(&c.boxes, &range, &c.eye, &candidates);
+            occ_verdict said = lanes[v]->test(&c.boxes, &range, &c.eye, &nowhere, &candidates);
             if (memcmp(&said, &expected, sizeof said) != 0)
                 ck_abort_msg("%s in round %u", lanes[v]->name, i);
         }
@@ -320,6 +258,17 @@ START_TEST(every_instruction_set_decides_objects_alike)
     ck_assert_uint_gt(hidden, ROUNDS / 100);
     occ_boxes_free(&c.hooks, &c.boxes);
 }
+
+START_TEST(every_instruction_set_decides_objects_alike)
+{
+    test_objects(false);
+}
+END_TEST
+
+START_TEST(every_instruction_set_fuses_alike)
+{
+    test_objects(true);
+}
 END_TEST
 
 int main(void)
@@ -327,9 +276,9 @@ int main(void)
     Suite *suite = suite_create("lanes");
     TCase *tcase = tcase_create("variants");
     tcase_add_checked_fixture(tcase, list_lanes, NULL);
-    tcase_add_test(tcase, every_instruction_set_finds_the_same_boxes_hidden);
     tcase_add_test(tcase, every_instruction_set_decides_siblings_alike);
     tcase_add_test(tcase, every_instruction_set_decides_objects_alike);
+    tcase_add_test(tcase, every_instruction_set_fuses_alike);
     suite_add_tcase(suite, tcase);
     return test_run_suite(suite);
 }

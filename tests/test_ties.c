@@ -48,32 +48,41 @@ static uint64_t turned_round(uint64_t bits, uint32_t count)
     return turned;
 }
 
-// Two tilted sheets whose bounds hold the eye are equally near, so their numbers say which is taken
-// first. The first hides the second, but belongs to the box behind both, which only the second may
-// hide. So it matters to `single` whether the second was taken before the first could hide it; it
-// may miss the box, and pairs do not.
-START_TEST(single_may_miss_more_or_less_with_two_equally_near_occluders_exchanged)
+// Two tilted sheets whose bounds hold the eye are equally near. Each belongs to one of two boxes
+// that are alike, so that these boxes' numbers say which is taken first. The larger hides the
+// smaller, but belongs to a box that only the smaller may hide. So it matters to `single` whether
+// the smaller was taken before the larger could hide it; it may miss the box, and pairs do not.
+START_TEST(single_may_miss_more_or_less_with_the_owners_of_equally_near_occluders_exchanged)
 {
-    static const world_occluder first = {{{0, 0, -10}, {{12, 0, 12}, {0, 8, 0}, {0, 0, 0}}}, 0};
-    static const world_occluder second = {
-        {{3.5f, 0, -9.5f}, {{9.5f, 0, 10.5f}, {0, 4, 0}, {0, 0, 0}}}, 1};
+    static const occ_box large = {{0, 0, -10}, {{12, 0, 12}, {0, 8, 0}, {0, 0, 0}}};
+    static const occ_box small = {{3.5f, 0, -9.5f}, {{9.5f, 0, 10.5f}, {0, 4, 0}, {0, 0, 0}}};
     static const float eye[3] = {0, 0, 0}, target[3] = {0, 0, -1};
-    const occ_box objects[2] = {kit_cube(0, 0, -40, 1), kit_cube(1, 0, -50, 1)};
+    const occ_box objects[2] = {kit_cube(0, 0, -40, 1), kit_cube(0, 0, -40, 1)};
     occ_camera_desc camera = kit_look(eye, target);
     occ_view *view = world_view(OCC_BACKEND_PLAIN, 0);
-    for (int swapped = 0; swapped < 2; swapped++) {
-        const world_occluder occluders[2] = {swapped ? second : first, swapped ? first : second};
+    for (int owner = 0; owner < 2; owner++) { // of the larger
+        const world_occluder occluders[2] = {{large, owner}, {small, !owner}};
         occ_scene *scene = world_scene(objects, 2, occluders, 2, 0);
         kit_cull(view, scene, &camera, &pairwise);
         ck_assert(!world_sees(view, 0) && !world_sees(view, 1));
         kit_cull(view, scene, &camera, NULL);
-        ck_assert(!world_sees(view, 1));
-        ck_assert_int_eq(world_sees(view, 0), !swapped);
+        ck_assert(!world_sees(view, (uint32_t)!owner));
+        ck_assert_int_eq(world_sees(view, (uint32_t)owner), owner == 0);
         occ_scene_destroy(scene);
     }
     occ_view_destroy(view);
 }
 END_TEST
+
+// What `single` makes of a world told in another order may differ, seldom, and is right.
+static bool differs(const mini *told, uint64_t seen, uint64_t expected, mini_views *views,
+                    uint32_t world)
+{
+    mini_fault fault;
+    if (seen == expected) return false;
+    KIT_CHECK(!mini_breaks(told, views, &fault), "world %u: %s", world, fault.text);
+    return true;
+}
 
 // Most numbers of mini worlds are small and whole, so that many occluders are equally near.
 START_TEST(an_order_matters_to_nothing_else)
@@ -87,17 +96,16 @@ START_TEST(an_order_matters_to_nothing_else)
         mini_make(&m, 7000000000u + n);
         other = reversed(&m);
         renumbered = objects_reversed(&m);
+        uint32_t count = m.object_count;
         uint64_t seen = bits_of(&m, views.view[0], &single);
         uint64_t pairs = bits_of(&m, views.view[0], &pairwise);
-        KIT_CHECK(turned_round(bits_of(&renumbered, views.view[0], &single), m.object_count) ==
-                      seen,
-                  "world %u: single depends on the objects' order", n);
-        KIT_CHECK(bits_of(&other, views.view[0], &pairwise) == pairs,
-                  "world %u: pairwise depends on the occluders' order", n);
-        bool same = bits_of(&other, views.view[0], &single) == seen;
-        differ += !same;
-        mini_fault fault;
-        if (!same) KIT_CHECK(!mini_breaks(&other, &views, &fault), "world %u: %s", n, fault.text);
+        KIT_CHECK(bits_of(&other, views.view[0], &pairwise) == pairs &&
+                      turned_round(bits_of(&renumbered, views.view[0], &pairwise), count) == pairs,
+                  "world %u: pairwise depends on an order", n);
+        differ += differs(&other, bits_of(&other, views.view[0], &single), seen, &views, n);
+        differ +=
+            differs(&renumbered, turned_round(bits_of(&renumbered, views.view[0], &single), count),
+                    seen, &views, n);
     }
     ck_assert_msg(differ <= worlds / 1000, "%u of %u worlds differ", differ, worlds);
     mini_close_views(&views);
@@ -108,7 +116,8 @@ int main(void)
 {
     Suite *suite = suite_create("ties");
     TCase *order = tcase_create("order");
-    tcase_add_test(order, single_may_miss_more_or_less_with_two_equally_near_occluders_exchanged);
+    tcase_add_test(
+        order, single_may_miss_more_or_less_with_the_owners_of_equally_near_occluders_exchanged);
     tcase_add_test(order, an_order_matters_to_nothing_else);
     suite_add_tcase(suite, order);
     return test_run_suite(suite);

@@ -8,16 +8,18 @@
 #include <string.h>
 
 // Colours that most colour-blind eyes tell apart (Okabe and Ito 2008), and a grey.
-const canvas_color picture_colors[3] = {{196, 200, 206}, {227, 119, 51}, {42, 164, 120}};
+const canvas_color picture_colors[PICTURE_VERDICTS] = {
+    {196, 200, 206}, {227, 119, 51}, {184, 84, 150}, {42, 164, 120}};
 const canvas_color picture_occluder_color = {38, 98, 178};
+const canvas_color picture_culprit_color = {240, 206, 40};
 const canvas_color picture_ink = {32, 36, 44};
 const canvas_color picture_paper = {255, 255, 255};
 
 static const canvas_color picture_margin = {241, 242, 244};
 
 typedef struct picture_arguments {
-    const char *scene, *out, *vis, *frame_text, *size_text;
-    uint64_t frame;
+    const char *scene, *out, *frame_text, *size_text, *method, *object_text;
+    picture_wish wish;
     options_extent extent;
 } picture_arguments;
 
@@ -29,23 +31,54 @@ static const char picture_usage[] =
     "\n"
     "  --frame K     which frame of the file, from 0 (default 0)\n"
     "  --out P.png   where to\n"
+    "  --method M    single (default), or fused, which tells apart what one occluder hides and "
+    "what\n"
+    "                several hide together\n"
+    "  --explain N   show which occluders hide object N, and of the other hidden objects none; "
+    "print\n"
+    "                its fate and these occluders, by their places in the file, nearest first\n"
     "  --vis R.vis   take the verdicts from this file (of occlude-bench cull) instead of deciding\n"
-    "                with method single\n"
     "  --size WxH    of the picture (default 1600x672)\n"
     "\n"
     "Boxes are drawn: objects are what lies inside them. From above nothing is buried under\n"
     "anything, whatever its height; what is very large is drawn pale.\n"
     "\n"
-    "Example: occlude-bench picture city.obs --frame 20 --out city.png\n";
+    "Example: occlude-bench picture city.obs --frame 20 --method fused --out city.png\n";
+
+// The numbers and names among the options. Returns 0, or 2 after a complaint.
+static int read_options(const char *command, picture_arguments *arguments)
+{
+    const options_extent least = {800, 400};
+    picture_wish *wish = &arguments->wish;
+    uint64_t frame = 0, object = 0;
+    if (arguments->frame_text && !options_number(arguments->frame_text, 0, UINT32_MAX, &frame))
+        return options_complain(command, "expected a number from 0 after --frame");
+    if (arguments->object_text && !options_number(arguments->object_text, 0, UINT32_MAX, &object))
+        return options_complain(command, "expected a number from 0 after --explain");
+    if (arguments->method && strcmp(arguments->method, "single") != 0 &&
+        strcmp(arguments->method, "fused") != 0)
+        return options_complain(command, "expected single or fused after --method");
+    if (wish->vis_path && (arguments->method || arguments->object_text))
+        return options_complain(command, "--vis goes with neither --method nor --explain");
+    if (arguments->size_text &&
+        !options_size(arguments->size_text, least, 4096, &arguments->extent))
+        return options_complain(command, "expected WxH after --size, from 800x400 to 4096x4096");
+    wish->frame = (uint32_t)frame;
+    wish->object = (uint32_t)object;
+    wish->explain = arguments->object_text != NULL;
+    wish->fused = arguments->method && strcmp(arguments->method, "fused") == 0;
+    return 0;
+}
 
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_picture(int argc, char **argv, picture_arguments *arguments)
 {
     *arguments = (picture_arguments){.extent = {1600, 672}};
-    const options_extent least = {800, 400};
     const options_entry entries[] = {{"--frame", OPTIONS_TEXT, &arguments->frame_text},
                                      {"--out", OPTIONS_TEXT, &arguments->out},
-                                     {"--vis", OPTIONS_TEXT, &arguments->vis},
+                                     {"--vis", OPTIONS_TEXT, &arguments->wish.vis_path},
+                                     {"--method", OPTIONS_TEXT, &arguments->method},
+                                     {"--explain", OPTIONS_TEXT, &arguments->object_text},
                                      {"--size", OPTIONS_TEXT, &arguments->size_text},
                                      {NULL, OPTIONS_FLAG, NULL}};
     char *words[1];
@@ -55,13 +88,7 @@ static int parse_picture(int argc, char **argv, picture_arguments *arguments)
     if (count != 1) return options_complain(argv[0], "expected a scene file");
     if (!arguments->out) return options_complain(argv[0], "expected --out P.png");
     arguments->scene = words[0];
-    if (arguments->frame_text &&
-        !options_number(arguments->frame_text, 0, UINT32_MAX, &arguments->frame))
-        return options_complain(argv[0], "expected a number from 0 after --frame");
-    if (arguments->size_text &&
-        !options_size(arguments->size_text, least, 4096, &arguments->extent))
-        return options_complain(argv[0], "expected WxH after --size, from 800x400 to 4096x4096");
-    return 0;
+    return read_options(argv[0], arguments);
 }
 
 static const char *base_name(const char *path)
@@ -94,15 +121,21 @@ static int dot_size(const canvas *c)
     return scaled(c, 2) > 0 ? scaled(c, 2) : 1;
 }
 
+static uint32_t hidden_of(const picture_facts *facts)
+{
+    return facts->counts[PICTURE_HIDDEN] + facts->counts[PICTURE_TOGETHER];
+}
+
 static void draw_title(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
 {
     char text[240], hidden[32], inside[32];
-    uint32_t in_frustum = facts->counts[PICTURE_VISIBLE] + facts->counts[PICTURE_HIDDEN];
-    double share = in_frustum ? 100.0 * facts->counts[PICTURE_HIDDEN] / in_frustum : 0;
+    uint32_t in_frustum = facts->counts[PICTURE_VISIBLE] + hidden_of(facts);
+    double share = in_frustum ? 100.0 * hidden_of(facts) / in_frustum : 0;
     snprintf(text, sizeof text,
              "%.60s, frame %u of %u: %s of %s objects in the frustum are hidden (%.1f %%)",
-             base_name(arguments->scene), (unsigned)arguments->frame, facts->scene->frame_count,
-             grouped(facts->counts[PICTURE_HIDDEN], hidden), grouped(in_frustum, inside), share);
+             base_name(arguments->scene), (unsigned)arguments->wish.frame,
+             facts->scene->frame_count, grouped(hidden_of(facts), hidden),
+             grouped(in_frustum, inside), share);
     canvas_text(c, scaled(c, 16), scaled(c, 12), dot_size(c), picture_ink, text);
 }
 
@@ -118,18 +151,27 @@ static int draw_key(canvas *c, int x, int y, canvas_color color, const char *lab
 
 static void draw_legend(canvas *c, int y, const picture_facts *facts)
 {
-    static const struct {
+    const struct {
         picture_verdict verdict;
         const char *text;
-    } keys[3] = {{PICTURE_VISIBLE, "visible"},
-                 {PICTURE_HIDDEN, "hidden, not drawn"},
-                 {PICTURE_OUTSIDE, "outside the frustum"}};
+    } keys[PICTURE_VERDICTS] = {
+        {PICTURE_VISIBLE, "visible"},
+        {PICTURE_HIDDEN, facts->fused ? "hidden by one" : "hidden, not drawn"},
+        {PICTURE_TOGETHER, "hidden by several together"},
+        {PICTURE_OUTSIDE, "outside the frustum"}};
     char label[128], number[32], all[32];
     int x = scaled(c, 16);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < PICTURE_VERDICTS; i++) {
+        if (keys[i].verdict == PICTURE_TOGETHER && !facts->fused) continue;
         snprintf(label, sizeof label, "%s %s", grouped(facts->counts[keys[i].verdict], number),
                  keys[i].text);
         x = draw_key(c, x, y, picture_colors[keys[i].verdict], label);
+    }
+    if (facts->explained) {
+        snprintf(label, sizeof label, "%zu that hide object %u", facts->culprit_count,
+                 (unsigned)facts->object);
+        draw_key(c, x, y, picture_culprit_color, label);
+        return;
     }
     if (!facts->used_known) return;
     snprintf(label, sizeof label, "%s of %s occluders used", grouped(facts->used_count, number),
@@ -153,8 +195,10 @@ static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *m
 
 static bool draw_all(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
 {
-    static const char camera_caption[] =
-        "from the camera: hidden objects, striped, shine through what hides them";
+    const char *camera_caption =
+        facts->explained
+            ? "from the camera: the object, striped, shines through what hides it"
+            : "from the camera: hidden objects, striped, shine through what hides them";
     canvas_rect map, camera;
     char caption[96];
     place_panels(c, facts->frame, &map, &camera);
@@ -186,20 +230,38 @@ static bool draw_picture(const picture_arguments *arguments, const picture_facts
     return good;
 }
 
+static void print_facts(const picture_wish *wish, const picture_facts *facts)
+{
+    static const char *const fates[PICTURE_VERDICTS] = {"outside", "hidden", "hidden", "visible"};
+    printf("frame=%u objects=%u visible=%u hidden=%u outside=%u occluders_used=%zu", wish->frame,
+           facts->scene->object_count, facts->counts[PICTURE_VISIBLE], hidden_of(facts),
+           facts->counts[PICTURE_OUTSIDE], facts->used_count);
+    if (facts->fused) printf(" together=%u", facts->counts[PICTURE_TOGETHER]);
+    putchar('\n');
+    if (!facts->explained) return;
+    printf("object=%u fate=%s occluders=", facts->object, fates[facts->verdicts[facts->object]]);
+    for (size_t i = 0; i < facts->culprit_count; i++)
+        printf("%s%u", i ? "," : "", facts->culprits[i]);
+    puts(facts->culprit_count ? "" : "none");
+}
+
 static bool picture_of(const picture_arguments *arguments, const obs_scene *scene)
 {
     picture_facts facts;
-    if (arguments->frame >= scene->frame_count) {
-        fprintf(stderr, "occlude-bench: %s: no frame %u among %u\n", arguments->scene,
-                (unsigned)arguments->frame, scene->frame_count);
+    const picture_wish *wish = &arguments->wish;
+    if (wish->frame >= scene->frame_count) {
+        fprintf(stderr, "occlude-bench: %s: no frame %u among %u\n", arguments->scene, wish->frame,
+                scene->frame_count);
         return false;
     }
-    if (!picture_decide(scene, (uint32_t)arguments->frame, arguments->vis, &facts)) return false;
+    if (wish->explain && wish->object >= scene->object_count) {
+        fprintf(stderr, "occlude-bench: %s: no object %u among %u\n", arguments->scene,
+                wish->object, scene->object_count);
+        return false;
+    }
+    if (!picture_decide(scene, wish, &facts)) return false;
     bool good = draw_picture(arguments, &facts);
-    if (good)
-        printf("frame=%u objects=%u visible=%u hidden=%u outside=%u occluders_used=%zu\n",
-               (unsigned)arguments->frame, scene->object_count, facts.counts[PICTURE_VISIBLE],
-               facts.counts[PICTURE_HIDDEN], facts.counts[PICTURE_OUTSIDE], facts.used_count);
+    if (good) print_facts(wish, &facts);
     picture_facts_free(&facts);
     return good;
 }

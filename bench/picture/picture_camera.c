@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three layers, each with its own depth: what is visible, the occluders in it, and over both,
-// striped, what is hidden. Lines are drawn where neighbouring pixels show different faces.
+// Layers, each with its own depth: what is visible, the occluders in it, and over both, striped,
+// what is hidden; or of what is hidden the explained object alone, and under it the occluders that
+// hide it. Lines are drawn where neighbouring pixels show different faces.
 #include "picture.h"
 
 #include "raster.h"
@@ -21,7 +22,7 @@ typedef struct layers {
     canvas *c;
     canvas_rect panel;
     const picture_facts *facts;
-    layer visible, occluders, hidden;
+    layer visible, occluders, culprits, hidden, together;
 } layers;
 
 static const occ_box *object_box(const obs_scene *scene, uint32_t number)
@@ -68,6 +69,7 @@ static bool is_edge(const raster *r, int x, int y)
 static void paint(layers *l, const layer *from, int x, int y)
 {
     const raster *r = &from->raster;
+    if (!r->face) return;
     size_t i = (size_t)y * (size_t)r->width + (size_t)x;
     int cx = l->panel.x + x, cy = l->panel.y + y;
     if (r->face[i] != RASTER_EMPTY) {
@@ -97,7 +99,9 @@ static void compose(layers *l)
             size_t i = (size_t)y * (size_t)l->panel.width + (size_t)x;
             paint(l, &l->visible, x, y);
             if (occluder_shows(l, i)) paint(l, &l->occluders, x, y);
+            paint(l, &l->culprits, x, y);
             paint(l, &l->hidden, x, y);
+            paint(l, &l->together, x, y);
         }
 }
 
@@ -105,14 +109,22 @@ static void draw_boxes(layers *l)
 {
     const obs_scene *scene = l->facts->scene;
     raster_camera camera = raster_camera_of(l->facts->frame);
+    const picture_facts *facts = l->facts;
+    raster *of[PICTURE_VERDICTS] = {[PICTURE_HIDDEN] = &l->hidden.raster,
+                                    [PICTURE_TOGETHER] = &l->together.raster,
+                                    [PICTURE_VISIBLE] = &l->visible.raster};
     for (uint32_t i = 0; i < scene->object_count; i++) {
-        if (l->facts->verdicts[i] == PICTURE_OUTSIDE) continue;
-        bool hidden = l->facts->verdicts[i] == PICTURE_HIDDEN;
-        raster_box(hidden ? &l->hidden.raster : &l->visible.raster, &camera, &scene->objects[i], i);
+        raster *to = of[facts->verdicts[i]];
+        if (!to || (facts->explained && to != &l->visible.raster && i != facts->object)) continue;
+        raster_box(to, &camera, &scene->objects[i], i);
     }
-    for (size_t i = 0; i < l->facts->used_count; i++) {
-        uint32_t place = l->facts->used[i];
+    for (size_t i = 0; i < facts->used_count; i++) {
+        uint32_t place = facts->used[i];
         raster_box(&l->occluders.raster, &camera, &scene->occluders[place].box, place);
+    }
+    for (size_t i = 0; i < facts->culprit_count; i++) {
+        uint32_t place = facts->culprits[i];
+        raster_box(&l->culprits.raster, &camera, &scene->occluders[place].box, place);
     }
 }
 
@@ -144,14 +156,21 @@ static layer make_layer(canvas_color color, bool shines_through)
 bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *facts)
 {
     layers l = {.c = c, .panel = panel, .facts = facts};
+    int width = panel.width, height = panel.height;
     l.visible = make_layer(picture_colors[PICTURE_VISIBLE], false);
     l.occluders = make_layer(picture_occluder_color, false);
     l.occluders.box_of = occluder_box;
     l.occluders.fill = 0.75f;
+    l.culprits = l.occluders;
+    l.culprits.color = picture_culprit_color;
+    l.culprits.line_color = half_of(picture_culprit_color);
     l.hidden = make_layer(picture_colors[PICTURE_HIDDEN], true);
-    bool good = raster_create(&l.visible.raster, panel.width, panel.height) &&
-                raster_create(&l.occluders.raster, panel.width, panel.height) &&
-                raster_create(&l.hidden.raster, panel.width, panel.height);
+    l.together = make_layer(picture_colors[PICTURE_TOGETHER], true);
+    bool good = raster_create(&l.visible.raster, width, height) &&
+                raster_create(&l.occluders.raster, width, height) &&
+                raster_create(&l.hidden.raster, width, height) &&
+                (!facts->fused || raster_create(&l.together.raster, width, height)) &&
+                (!facts->explained || raster_create(&l.culprits.raster, width, height));
     if (good) {
         fill_background(c, panel);
         draw_boxes(&l);
@@ -159,6 +178,8 @@ bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *fact
     }
     raster_free(&l.visible.raster);
     raster_free(&l.occluders.raster);
+    raster_free(&l.culprits.raster);
     raster_free(&l.hidden.raster);
+    raster_free(&l.together.raster);
     return good;
 }

@@ -114,6 +114,49 @@ static bool read_used(decider *d)
     return good;
 }
 
+// Tells apart what several occluders hide together, and finds what is outside after all.
+static bool tell_together(decider *d)
+{
+    uint8_t *verdicts = d->facts->verdicts;
+    for (uint32_t i = 0; i < d->facts->scene->object_count; i++) {
+        occ_fate fate;
+        size_t count;
+        if (verdicts[i] != PICTURE_HIDDEN) continue;
+        occ_result result =
+            occ_view_explain(d->view, d->scene, d->objects[i], &fate, NULL, 0, &count);
+        if (result != OCC_ERROR_BUFFER_TOO_SMALL && !succeeded(result, "explaining an object"))
+            return false;
+        if (fate == OCC_FATE_OUTSIDE) verdicts[i] = PICTURE_OUTSIDE;
+        if (count > 1) verdicts[i] = PICTURE_TOGETHER;
+    }
+    return true;
+}
+
+static bool explain(decider *d, uint32_t object)
+{
+    picture_facts *facts = d->facts;
+    size_t capacity = facts->scene->occluder_count;
+    occ_occluder *culprits = malloc((capacity + 1) * sizeof *culprits);
+    uint32_t *places = invert_occluders(d);
+    facts->culprits = malloc((capacity + 1) * sizeof *facts->culprits);
+    bool good = culprits && places && facts->culprits;
+    occ_fate fate = OCC_FATE_VISIBLE;
+    if (good)
+        good = succeeded(occ_view_explain(d->view, d->scene, d->objects[object], &fate, culprits,
+                                          capacity, &facts->culprit_count),
+                         "explaining the object");
+    else
+        out_of_memory();
+    for (size_t i = 0; good && i < facts->culprit_count; i++)
+        facts->culprits[i] = places[culprits[i].index];
+    if (fate == OCC_FATE_OUTSIDE) facts->verdicts[object] = PICTURE_OUTSIDE;
+    facts->explained = good;
+    facts->object = object;
+    free(culprits);
+    free(places);
+    return good;
+}
+
 static bool read_verdicts(decider *d, uint32_t frame, const char *path)
 {
     vis_result file;
@@ -130,27 +173,28 @@ static bool read_verdicts(decider *d, uint32_t frame, const char *path)
     return good;
 }
 
-static bool decide(decider *d, uint32_t frame, const char *vis_path)
+static bool decide(decider *d, const picture_wish *wish)
 {
     if (!build(d) || !cull(d, OCC_METHOD_FRUSTUM)) return false;
     raise_visible(d, PICTURE_OUTSIDE, PICTURE_HIDDEN);
-    if (vis_path) return read_verdicts(d, frame, vis_path);
-    if (!cull(d, OCC_METHOD_SINGLE)) return false;
+    if (wish->vis_path) return read_verdicts(d, wish->frame, wish->vis_path);
+    if (!cull(d, wish->fused ? OCC_METHOD_FUSED : OCC_METHOD_SINGLE)) return false;
     raise_visible(d, PICTURE_HIDDEN, PICTURE_VISIBLE);
-    return read_used(d);
+    d->facts->fused = wish->fused;
+    if (wish->fused && !tell_together(d)) return false;
+    return read_used(d) && (!wish->explain || explain(d, wish->object));
 }
 
-bool picture_decide(const obs_scene *scene, uint32_t frame, const char *vis_path,
-                    picture_facts *facts)
+bool picture_decide(const obs_scene *scene, const picture_wish *wish, picture_facts *facts)
 {
-    *facts = (picture_facts){.scene = scene, .frame = &scene->frames[frame]};
+    *facts = (picture_facts){.scene = scene, .frame = &scene->frames[wish->frame]};
     facts->verdicts = calloc((size_t)scene->object_count + 1, sizeof *facts->verdicts);
     decider d = {.facts = facts};
     for (int k = 0; k < 3; k++)
         d.eye[k] = (double)facts->frame->eye[k];
     d.camera.eye = d.eye;
     obs_view_projection(facts->frame, d.camera.view_projection);
-    bool good = facts->verdicts ? decide(&d, frame, vis_path) : out_of_memory();
+    bool good = facts->verdicts ? decide(&d, wish) : out_of_memory();
     for (uint32_t i = 0; good && i < scene->object_count; i++)
         facts->counts[facts->verdicts[i]]++;
     occ_view_destroy(d.view);
@@ -165,5 +209,6 @@ void picture_facts_free(picture_facts *facts)
 {
     free(facts->verdicts);
     free(facts->used);
+    free(facts->culprits);
     *facts = (picture_facts){0};
 }

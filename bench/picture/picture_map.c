@@ -240,23 +240,37 @@ static bool is_upright(const occ_box *box)
 }
 
 // What stands is what hides on a map: it is filled, and a sheet seen from its edge is a line.
-static void draw_occluders(const map *m)
+static void draw_occluders(const map *m, const uint32_t *places, size_t places_count,
+                           canvas_color color)
 {
-    for (size_t i = m->facts->used_count; i-- > 0;) {
+    for (size_t i = places_count; i-- > 0;) {
         double hull[16][2];
-        const occ_box *box = &m->facts->scene->occluders[m->facts->used[i]].box;
+        const occ_box *box = &m->facts->scene->occluders[places[i]].box;
         if (!in_panel(m, box)) continue;
         int count = footprint(m, box, hull);
         double area = 4 * box_reach(box, 0) * box_reach(box, 2) * m->scale * m->scale;
         bool large = area > 0.05 * m->panel.width * m->panel.height;
         bool upright = is_upright(box);
-        canvas_polygon(m->c, (const double(*)[2])hull, count, picture_occluder_color,
+        canvas_polygon(m->c, (const double(*)[2])hull, count, color,
                        large     ? 0.1f
                        : upright ? 0.8f
                                  : 0.2f);
-        outline(m, (const double(*)[2])hull, count, upright ? 4 : 2, picture_occluder_color,
-                upright ? 1.0f : 0.25f);
+        outline(m, (const double(*)[2])hull, count, upright ? 4 : 2, color, upright ? 1.0f : 0.25f);
     }
+}
+
+// The object that is explained, and what hides it, over all else.
+static void draw_explained(const map *m)
+{
+    const picture_facts *facts = m->facts;
+    double hull[16][2], at[2];
+    const occ_box *box = &facts->scene->objects[facts->object];
+    draw_occluders(m, facts->culprits, facts->culprit_count, picture_culprit_color);
+    int count = footprint(m, box, hull);
+    to_panel(m, (double)box->center[0], (double)box->center[2], at);
+    canvas_disc(m->c, at[0], at[1], 7, picture_ink);
+    canvas_disc(m->c, at[0], at[1], 5, picture_colors[facts->verdicts[facts->object]]);
+    outline(m, (const double(*)[2])hull, count, 3, picture_ink, 1.0f);
 }
 
 static bool invert(const double a[16], double out[16])
@@ -330,8 +344,9 @@ bool picture_draw_map(canvas *c, canvas_rect panel, const picture_facts *facts, 
     canvas_fill(c, panel, picture_paper);
     c->clip = panel;
     bool good = draw_objects(&m);
-    draw_occluders(&m);
+    draw_occluders(&m, facts->used, facts->used_count, picture_occluder_color);
     draw_frustum(&m);
+    if (facts->explained) draw_explained(&m);
     c->clip = canvas_all(c);
     int digits = whole < 10 ? 2 : whole < 100 ? 1 : 0;
     if (side < whole)

@@ -135,6 +135,30 @@ OCC_API OCC_NODISCARD occ_result occ_view_read_occluders(const occ_view *view,
 /// slot the result does not reach.
 OCC_API bool occ_view_is_visible(const occ_view *view, occ_object object);
 
+/// What became of an object.
+typedef enum occ_fate {
+    OCC_FATE_VISIBLE = 0, ///< The mask shows it.
+    OCC_FATE_OUTSIDE = 1, ///< It is outside the frustum.
+    OCC_FATE_HIDDEN = 2   ///< Occluders hide all of it that is inside the frustum.
+} occ_fate;
+
+/// Says what became of an object by the latest result, and which occluders hid it, nearest first:
+/// one, or several that do it together and of which none can be left out; none if the object was
+/// not hidden. Same rules for `occluders` as for the mask. `fate` and `count` may be NULL.
+///
+/// Nothing is kept for this while culling and nothing is allocated: the reason is found anew when
+/// it is asked for, among the occluders that took part, in up to milliseconds. The occluders named
+/// prove by themselves that the object is hidden; others may hide it too. With a `tolerance` they
+/// count as wider here as well.
+///
+/// `scene` is the one that was culled, unchanged since: otherwise OCC_ERROR_INVALID_ARGUMENT if it
+/// is another, OCC_ERROR_NOT_COMMITTED if it was edited, OCC_ERROR_NO_RESULT if it was edited and
+/// committed. A handle that names no object of it gives OCC_ERROR_STALE_HANDLE.
+OCC_API OCC_NODISCARD occ_result occ_view_explain(const occ_view *view, const occ_scene *scene,
+                                                  occ_object object, occ_fate *fate,
+                                                  occ_occluder *occluders, size_t capacity,
+                                                  size_t *count);
+
 /// What a frame did, stage by stage. objects = walk_outside + walk_hidden + tested, and
 /// tested = test_outside + test_hidden + visible.
 typedef struct occ_view_stats {
