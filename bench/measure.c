@@ -70,7 +70,7 @@ bool measure_preset(const char *name, occ_preset *preset)
     return false;
 }
 
-static bool find_backend(const char *name, occ_backend *backend)
+bool measure_backend(const char *name, occ_backend *backend)
 {
     static const char *const names[] = {"openmp", "plain", "opencl"};
     static const occ_backend backends[] = {OCC_BACKEND_OPENMP, OCC_BACKEND_PLAIN,
@@ -93,7 +93,7 @@ const char *measure_complete(measure_settings *settings)
         return "expected frustum, thesis, embree-depth, embree-rays, pairwise, single or fused "
                "after "
                "--method";
-    if (!find_backend(settings->backend, &backend))
+    if (!measure_backend(settings->backend, &backend))
         return "expected plain, openmp or opencl after --backend";
     if (peer && peer->missing) return "built without Embree 3, which this method needs";
     if (!peer || backend == OCC_BACKEND_PLAIN) return NULL;
@@ -160,7 +160,7 @@ static bool make_view(measure_bench *bench)
     occ_view_desc desc = {.allocator = counting_allocator(&bench->heap),
                           .logger = {print_log_line, NULL},
                           .threads = bench->result->threads};
-    if (!find_backend(bench->settings->backend, &desc.backend)) return false;
+    if (!measure_backend(bench->settings->backend, &desc.backend)) return false;
     if (!succeeded(occ_view_create(&desc, &bench->view), "making the view")) return false;
     build_info_device(bench->view, bench->result->driver, sizeof bench->result->driver);
     return true;
@@ -185,8 +185,8 @@ static bool open_peer(measure_bench *bench)
 
 // --- culling -------------------------------------------------------------------------------------
 
-static occ_result cull_frame(occ_view *view, const occ_scene *scene, const obs_frame *frame,
-                             const occ_cull_desc *knobs)
+occ_result measure_cull(occ_view *view, const occ_scene *scene, const obs_frame *frame,
+                        const occ_cull_desc *knobs)
 {
     double eye[3] = {(double)frame->eye[0], (double)frame->eye[1], (double)frame->eye[2]};
     occ_camera_desc camera = {.eye = eye};
@@ -224,7 +224,7 @@ static bool cull_once(measure_bench *bench, measure_frame *row)
     }
     size_t words, visible = 0, capacity = bench->file->object_count;
     double start = timing_now();
-    occ_result result = cull_frame(bench->view, bench->scene, frame, &bench->knobs);
+    occ_result result = measure_cull(bench->view, bench->scene, frame, &bench->knobs);
     if (result == OCC_SUCCESS)
         result = occ_view_read_mask(bench->view, bench->mask, OCC_MASK_WORDS(capacity), &words);
     if (result == OCC_SUCCESS)
@@ -246,7 +246,7 @@ static bool count_in_frustum(measure_bench *bench)
         measure_frame *row = &bench->result->frames[i];
         occ_view_stats stats = {0};
         occ_result result =
-            cull_frame(view, bench->scene, &bench->file->frames[row->index], &frustum);
+            measure_cull(view, bench->scene, &bench->file->frames[row->index], &frustum);
         if (result == OCC_SUCCESS) result = occ_view_get_stats(view, &stats);
         good = succeeded(result, "culling by the frustum");
         row->in_frustum = stats.visible;

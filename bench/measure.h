@@ -63,6 +63,13 @@ bool measure_method(const char *name, occ_method *method);
 /// The preset of that name: fast, balanced or thorough. False if there is none.
 bool measure_preset(const char *name, occ_preset *preset);
 
+/// The backend of that name: plain, openmp or opencl. False if there is none.
+bool measure_backend(const char *name, occ_backend *backend);
+
+/// occ_cull() with the camera of a file's frame.
+occ_result measure_cull(occ_view *view, const occ_scene *scene, const obs_frame *frame,
+                        const occ_cull_desc *knobs);
+
 /// Runs. On failure says why on standard error, zeroes `result` and returns false.
 bool measure_run(const measure_settings *settings, const obs_scene *scene, measure_result *result);
 

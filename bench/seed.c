@@ -21,6 +21,7 @@ typedef struct seed_row {
     uint32_t objects;
     double in_frustum, after_octree, after_occlusion, ms;
     double thesis_ms; // 0: not published
+    uint64_t bytes;   // the most that scene and view held
 } seed_row;
 
 typedef struct seed_arguments {
@@ -45,6 +46,7 @@ static const char seed_usage[] =
     "                 (default 1,10,100,501,1001,5001,... 1000000)\n"
     "  --scenes S     scenes for each number, seeds 1 to S; counts are means and times medians\n"
     "                 over them (default 5)\n"
+    "  --method M     fused (default) or single\n"
     "  --backend B    openmp (default), plain or opencl\n"
     "  --threads T    threads of the openmp backend (default: 1)\n"
     "  --repeat R     timed culls of each scene (default 21)\n"
@@ -100,6 +102,8 @@ static bool measure_scene(seed_arguments *arguments, seed_row *row, uint32_t see
     row->after_octree += (double)frame->stats.tested / arguments->scenes;
     row->after_occlusion += (double)frame->stats.visible / arguments->scenes;
     *ms = frame->ms;
+    uint64_t bytes = result.held_bytes + result.device_bytes;
+    if (bytes > row->bytes) row->bytes = bytes;
     memcpy(arguments->driver, result.driver, sizeof arguments->driver);
     measure_free(&result);
     return true;
@@ -116,8 +120,9 @@ static bool measure_row(seed_arguments *arguments, seed_row *row)
 
 static void print_row(const seed_row *row)
 {
-    printf("%9u %12.1f %14.1f %16.1f %10.4f %12.0f", row->objects, row->in_frustum,
-           row->after_octree, row->after_occlusion, row->ms, 1000 / row->ms);
+    printf("%9u %12.1f %14.1f %16.1f %10.4f %12.0f %10.1f", row->objects, row->in_frustum,
+           row->after_octree, row->after_occlusion, row->ms, 1000 / row->ms,
+           (double)row->bytes / 1e6);
     if (row->thesis_ms > 0)
         printf(" %12.2f\n", row->thesis_ms);
     else
@@ -128,17 +133,19 @@ static void print_row(const seed_row *row)
 static void write_table(FILE *stream, const seed_arguments *arguments, const seed_row *rows,
                         size_t count)
 {
+    const measure_settings *settings = &arguments->settings;
     build_info_write(stream, arguments->driver);
-    fprintf(stream, "# backend=%s\n# repeats=%u\n# scenes=%u\n", arguments->settings.backend,
-            arguments->settings.repeats, arguments->scenes);
+    fprintf(stream, "# method=%s\n# backend=%s\n# threads=%u\n# repeats=%u\n# scenes=%u\n",
+            settings->method, settings->backend, settings->threads, settings->repeats,
+            arguments->scenes);
     fputs("objects,in_frustum_objects,after_octree_objects,after_occlusion_objects,time_ms,"
-          "ceiling_fps,thesis_time_ms\n",
+          "ceiling_fps,thesis_time_ms,memory_bytes\n",
           stream);
     for (size_t i = 0; i < count; i++) {
         fprintf(stream, "%u,%.1f,%.1f,%.1f,%.6f,%.1f,", rows[i].objects, rows[i].in_frustum,
                 rows[i].after_octree, rows[i].after_occlusion, rows[i].ms, 1000 / rows[i].ms);
         if (rows[i].thesis_ms > 0) fprintf(stream, "%.2f", rows[i].thesis_ms);
-        fputc('\n', stream);
+        fprintf(stream, ",%llu\n", (unsigned long long)rows[i].bytes);
     }
 }
 
@@ -150,36 +157,39 @@ static bool write_csv(const seed_arguments *arguments, const seed_row *rows, siz
     return outfile_commit(&table);
 }
 
-static void draw(const char *path, const seed_row *rows, size_t count)
+static void draw(const seed_arguments *arguments, const seed_row *rows, size_t count)
 {
     double x[MAX_ROWS], ours[MAX_ROWS], theirs[MAX_ROWS];
+    char title[64];
+    snprintf(title, sizeof title, "occlude, method %s, this machine", arguments->settings.method);
     for (size_t i = 0; i < count; i++) {
         x[i] = rows[i].objects;
         ours[i] = rows[i].ms;
         theirs[i] = rows[i].thesis_ms;
     }
-    const plot_curve curves[] = {{"occlude, method single, this machine", x, ours, count},
+    const plot_curve curves[] = {{title, x, ours, count},
                                  {"thesis of 2019, i7-7700HQ and GTX 1050", x, theirs, count}};
-    if (plot_logarithmic(path, "Time of a frame against the number of objects", "objects",
-                         "milliseconds a frame", curves, 2))
-        printf("plot: %s\n", path);
+    if (plot_logarithmic(arguments->plot, "Time of a frame against the number of objects",
+                         "objects", "milliseconds a frame", curves, 2))
+        printf("plot: %s\n", arguments->plot);
 }
 
 static int run_seed(seed_arguments *arguments, seed_row *rows, size_t count)
 {
-    printf("%9s %12s %14s %16s %10s %12s %12s\n", "objects", "in frustum", "after octree",
-           "after occlusion", "ms", "fps ceiling", "thesis ms");
+    printf("%9s %12s %14s %16s %10s %12s %10s %12s\n", "objects", "in frustum", "after octree",
+           "after occlusion", "ms", "fps ceiling", "memory MB", "thesis ms");
     for (size_t i = 0; i < count; i++) {
         if (!measure_row(arguments, &rows[i])) return 1;
         print_row(&rows[i]);
     }
     printf(
-        "backend %s; counts are means and times medians over %u scenes. after octree: left by\n"
+        "method %s, backend %s; counts are means and times medians over %u scenes. after octree: "
+        "left by\n"
         "the walk (frustum and hidden nodes), handed to the test of single objects. The thesis's\n"
         "times are another machine's, and it hides what its tolerance happens to take in.\n",
-        arguments->settings.backend, arguments->scenes);
+        arguments->settings.method, arguments->settings.backend, arguments->scenes);
     if (arguments->csv && !write_csv(arguments, rows, count)) return 1;
-    if (arguments->plot) draw(arguments->plot, rows, count);
+    if (arguments->plot) draw(arguments, rows, count);
     return 0;
 }
 
@@ -187,11 +197,13 @@ int bench_seed(int argc, char **argv)
 {
     seed_arguments arguments = {.counts = seed_default_counts, .scenes = 5};
     arguments.settings = measure_defaults();
+    arguments.settings.method = "fused";
     arguments.settings.repeats = 21;
     arguments.settings.backend = "openmp";
     arguments.settings.threads = 1;
     const options_entry entries[] = {{"--counts", OPTIONS_TEXT, &arguments.counts},
                                      {"--scenes", OPTIONS_COUNT, &arguments.scenes},
+                                     {"--method", OPTIONS_TEXT, &arguments.settings.method},
                                      {"--backend", OPTIONS_TEXT, &arguments.settings.backend},
                                      {"--threads", OPTIONS_COUNT, &arguments.settings.threads},
                                      {"--repeat", OPTIONS_COUNT, &arguments.settings.repeats},
@@ -201,6 +213,10 @@ int bench_seed(int argc, char **argv)
     int status = options_parse(argc, argv, entries, NULL, 0);
     if (status == OPTIONS_HELP) return fputs(seed_usage, stdout) < 0;
     if (status == OPTIONS_BAD) return 2;
+    occ_method method;
+    if (!measure_method(arguments.settings.method, &method) || method == OCC_METHOD_FRUSTUM ||
+        method == OCC_METHOD_PAIRWISE)
+        return options_complain(argv[0], "expected fused or single after --method");
     const char *complaint = measure_complete(&arguments.settings);
     if (complaint) return options_complain(argv[0], complaint);
     if (arguments.scenes > MAX_SCENES || arguments.settings.repeats > 1000)

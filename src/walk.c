@@ -76,6 +76,34 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
     return OCC_SUCCESS;
 }
 
+// How much of the screen an occluder takes up.
+static float shown_area(const occ_shadow_set *set, uint32_t i)
+{
+    const occ_rect_block *block = &set->rects[i / OCC_SHADOW_LANES];
+    float area = 1.0f;
+    for (uint32_t j = 0; j < 2; j++) {
+        float min = block->min[j][i % OCC_SHADOW_LANES], max = block->max[j][i % OCC_SHADOW_LANES];
+        area *= (max < 1.0f ? max : 1.0f) - (min > -1.0f ? min : -1.0f);
+    }
+    return area;
+}
+
+static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t count)
+{
+    float area[64];
+    if (count > 64) return;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t s = list[i], k = i;
+        float a = shown_area(set, s);
+        for (; k > 0 && area[k - 1] < a; k--) {
+            area[k] = area[k - 1];
+            list[k] = list[k - 1];
+        }
+        area[k] = a;
+        list[k] = s;
+    }
+}
+
 // Lists the candidates of a range: the occluders that are near enough and touch it.
 static occ_result close_range(occ_frame *frame, const open_range *open)
 {
@@ -97,6 +125,7 @@ static occ_result close_range(occ_frame *frame, const open_range *open)
         frame->stats.walk_hidden += open->count;
         return OCC_SUCCESS;
     }
+    largest_first(&set, list, count);
     frame->candidates.count += count;
     return add_ranges(frame, open, begin);
 }

@@ -16,7 +16,7 @@ typedef struct run {
     occ_view *view;
     occ_backend backend;
     occ_object objects[OBJECTS];
-    occ_occluder occluders[OBJECTS];
+    occ_occluder occluders[OBJECTS], nobodys[OBJECTS];
     uint32_t masks[CULLS][MASK_WORDS];
     uint32_t culls;
     unsigned refusals;
@@ -115,12 +115,16 @@ static void run_script(run *r)
     commit(r);
     cull(r);
     move_some(r, 0.0005f, 3); // within their cells
-    TRY(r, occ_scene_add_occluders(r->scene, boxes, NULL, 80, NULL));
+    TRY(r, occ_scene_add_occluders(r->scene, boxes, NULL, 80, r->nobodys));
     commit(r);
     cull(r);
     TRY(r, occ_scene_remove(r->scene, r->objects[3]));
     TRY(r, occ_scene_remove(r->scene, r->objects[77]));
     TRY(r, occ_scene_move_occluder(r->scene, r->occluders[5], &boxes[99]));
+    TRY(r, occ_scene_remove_occluder(r->scene, r->occluders[6]));
+    TRY(r, occ_scene_add_occluder(r->scene, &boxes[4], r->objects[4], NULL)); // its second
+    TRY(r, occ_scene_move_occluder(r->scene, r->nobodys[1], &boxes[98]));
+    TRY(r, occ_scene_remove_occluder(r->scene, r->nobodys[2]));
     move_some(r, 11.0f, 7);
     commit(r);
     cull(r);

@@ -12,6 +12,7 @@ kit_model *kit_model_create(uint64_t seed, const occ_scene_desc *desc)
     kit_model *model = calloc(1, sizeof *model);
     KIT_CHECK(model, "out of memory");
     model->random.state = seed;
+    model->owned = 3;
     KIT_CHECK(!occ_scene_create(desc, &model->scene), "no scene");
     return model;
 }
@@ -109,9 +110,17 @@ static void remove_object(kit_model *model)
         if (model->occluders[k].owner == i) model->occluders[k].alive = false;
 }
 
+// Now and then one that owns an occluder already.
+static uint32_t any_owner(kit_model *model)
+{
+    uint32_t k = kit_below(&model->random, 3) ? NOBODY : any_occluder(model);
+    uint32_t owner = k == NOBODY ? NOBODY : model->occluders[k].owner;
+    return owner == NOBODY ? any_object(model) : owner;
+}
+
 static void add_occluder(kit_model *model)
 {
-    uint32_t owner = kit_below(&model->random, 4) ? any_object(model) : NOBODY;
+    uint32_t owner = kit_below(&model->random, 4) < model->owned ? any_owner(model) : NOBODY;
     if (model->occluder_count == KIT_MOST) return;
     occ_object handle = {0, 0};
     occ_box box = any_box(&model->random);
@@ -154,7 +163,8 @@ void kit_model_edit(kit_model *model)
         for (uint32_t n = 1 + kit_below(&model->random, 14); n > 0; n--)
             remove_object(model);
     } else if (what < 82) {
-        add_occluder(model);
+        for (uint32_t n = 1 + kit_below(&model->random, 8); n > 0; n--)
+            add_occluder(model);
     } else if (what < 92) {
         move_occluder(model);
     } else {

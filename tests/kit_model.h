@@ -24,12 +24,13 @@ typedef struct kit_occluder {
 typedef struct kit_model {
     occ_scene *scene;
     kit_random random;
+    uint32_t owned; // of four occluders that are added, so many are somebody's
     uint32_t object_count, occluder_count; // of all that ever were
     kit_object objects[KIT_MOST];
     kit_occluder occluders[KIT_MOST];
 } kit_model;
 
-// An empty scene and list.
+// An empty scene and list; `owned` is 3.
 kit_model *kit_model_create(uint64_t seed, const occ_scene_desc *desc);
 void kit_model_destroy(kit_model *model);
 

@@ -30,7 +30,7 @@ void kit_anywhere(occ_projection *seen)
 
 kit_contact kit_contact_of(const occ_relative_box *box, const occ_shadow *shadow)
 {
-    kit_contact contact = {.inside = true, .roomy = true};
+    kit_contact contact = {.inside = true};
     for (uint32_t p = 0; p < shadow->planes; p++) {
         const float *n = shadow->plane[p];
         float s = OCC_PLANE_AT(n[0], n[1], n[2], n[3], box->t[0], box->t[1], box->t[2]);
@@ -38,7 +38,6 @@ kit_contact kit_contact_of(const occ_relative_box *box, const occ_shadow *shadow
         bool inside = s - r > box->e;
         contact.apart |= s + r < -box->e;
         contact.inside &= inside;
-        contact.roomy &= s - r > 2.0f * box->e;
         contact.faces |= !inside && p >= occ_shadow_silhouettes(shadow);
     }
     return contact;

@@ -28,7 +28,6 @@ void kit_anywhere(occ_projection *seen);
 typedef struct kit_contact {
     bool apart;  // the shadow holds nothing of the box
     bool inside; // all of it
-    bool roomy;  // all of it by twice the bound, so that it holds every corner as well
     bool faces;  // one of its faces cuts the box
 } kit_contact;
 

@@ -41,11 +41,16 @@ static occ_box random_box(kit_random *random)
     }
 }
 
+// Some occluders are nobody's, some objects own several.
 static void add_all(int s)
 {
+    static occ_object owners[OCCLUDERS];
     KIT_CHECK(!occ_scene_add_many(made[s].scene, boxes, OBJECTS, made[s].objects), "refused");
-    KIT_CHECK(!occ_scene_add_occluders(made[s].scene, boxes, made[s].objects, OCCLUDERS,
-                                       made[s].occluders),
+    for (uint32_t i = 0; i < OCCLUDERS; i++) {
+        owners[i] = made[s].objects[i % 5 ? i : OBJECTS - 1 - i / 100];
+        if (i % 3 == 2) owners[i] = (occ_object){0, 0};
+    }
+    KIT_CHECK(!occ_scene_add_occluders(made[s].scene, boxes, owners, OCCLUDERS, made[s].occluders),
               "refused");
 }
 
@@ -117,6 +122,8 @@ START_TEST(thread_count_does_not_show)
 {
     commit_and_compare();
     ck_assert_uint_gt(made[0].scene->object_tree.nodes.count, 1000);
+    ck_assert_uint_gt(made[0].scene->attached_count, OCCLUDERS / 2);
+    ck_assert_uint_gt(made[0].scene->occluder_tree.nodes.count, 1000);
     kit_check_trees(made[3].scene);
     move_some(2000, 2e-3f); // within the cells: no sorting
     ck_assert(!made[1].scene->objects_reordered);
@@ -172,6 +179,7 @@ START_TEST(failed_commit_on_threads_can_be_tried_again)
     ck_assert_uint_gt(failures, 3);
     kit_check_same_scene(made[0].scene, made[1].scene);
     kit_check_trees(made[1].scene);
+    ck_assert_uint_eq(made[0].heap.bytes, made[1].heap.bytes);
 }
 END_TEST
 

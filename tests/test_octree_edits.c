@@ -94,9 +94,11 @@ static void compare_with_another_history(kit_model *model, uint32_t i)
 static void edit_and_compare(int seed, void (*compare)(kit_model *model, uint32_t i))
 {
     static const uint32_t leaves[] = {1, 4, 16, 0};
+    static const uint32_t owned[] = {3, 4, 2, 0}; // of four occluders
     occ_scene_desc desc = {.leaf_objects = leaves[seed % 4]};
     kit_model *model = kit_model_create((uint64_t)seed + 1000, &desc);
-    uint32_t commits = 0;
+    uint32_t commits = 0, most_attached = 0, most_free = 0;
+    model->owned = owned[seed / 2 % 4];
     for (uint32_t e = 0; e < EDITS; e++) {
         kit_model_edit(model);
         if (kit_below(&model->random, 20)) continue;
@@ -105,7 +107,13 @@ static void edit_and_compare(int seed, void (*compare)(kit_model *model, uint32_
         kit_model_check(model);
         kit_check_trees(model->scene);
         compare(model, commits++);
+        uint32_t attached = model->scene->attached_count;
+        uint32_t nobodys = model->scene->occluder_rows.count - attached;
+        most_attached = attached > most_attached ? attached : most_attached;
+        most_free = nobodys > most_free ? nobodys : most_free;
     }
+    ck_assert_uint_ge(most_attached, 10 * model->owned);
+    ck_assert_uint_ge(most_free, 10 * (4 - model->owned));
     ck_assert_uint_gt(commits, EDITS / 50);
     ck_assert_uint_gt(model->scene->boxes.count, 20);
     kit_model_destroy(model);

@@ -38,10 +38,24 @@ static void check_bytes(const occ_scene *scene)
     ck_assert_uint_eq(stats.bytes, heap.bytes);
 }
 
+// Every so-manieth occluder is nobody's; 0: none.
+static uint32_t nobodys_every;
+
+static void everybody(void)
+{
+    nobodys_every = 0;
+}
+
+static bool is_nobodys(uint32_t i)
+{
+    return nobodys_every && i % nobodys_every == 0;
+}
+
 static void fill(occ_scene *scene, how way, uint32_t occluders, occ_object *objects)
 {
+    occ_object *owners = calloc(OBJECTS, sizeof *owners);
     occ_box *boxes = malloc(OBJECTS * sizeof *boxes);
-    ck_assert_ptr_nonnull(boxes);
+    ck_assert(owners && boxes);
     kit_random random = {1};
     for (uint32_t i = 0; i < OBJECTS; i++)
         boxes[i] = kit_box(&random, 1000, 1);
@@ -51,13 +65,16 @@ static void fill(occ_scene *scene, how way, uint32_t occluders, occ_object *obje
     if (!single) {
         ck_assert_int_eq(occ_scene_add_many(scene, boxes, OBJECTS, objects), OCC_SUCCESS);
     }
+    for (uint32_t i = 0; i < occluders; i++)
+        if (!is_nobodys(i)) owners[i] = objects[i];
     for (uint32_t i = 0; i < occluders && single; i++)
-        KIT_CHECK(!occ_scene_add_occluder(scene, &boxes[i], objects[i], NULL), "refused");
+        KIT_CHECK(!occ_scene_add_occluder(scene, &boxes[i], owners[i], NULL), "refused");
     if (!single) {
-        ck_assert_int_eq(occ_scene_add_occluders(scene, boxes, objects, occluders, NULL),
+        ck_assert_int_eq(occ_scene_add_occluders(scene, boxes, owners, occluders, NULL),
                          OCC_SUCCESS);
     }
     free(boxes);
+    free(owners);
     check_bytes(scene);
     ck_assert_int_eq(occ_scene_commit(scene), OCC_SUCCESS);
     check_bytes(scene);
@@ -71,7 +88,7 @@ static void replace(occ_scene *scene, uint32_t occluders, occ_object *objects, u
         occ_box box = kit_box(&random, 1000, 1);
         KIT_CHECK(!occ_scene_remove(scene, objects[i]), "an object stays");
         KIT_CHECK(!occ_scene_add(scene, &box, &objects[i]), "an object is refused");
-        if (i >= occluders) continue;
+        if (i >= occluders || is_nobodys(i)) continue;
         KIT_CHECK(!occ_scene_add_occluder(scene, &box, objects[i], NULL), "refused");
     }
     ck_assert_int_eq(occ_scene_commit(scene), OCC_SUCCESS);
@@ -110,6 +127,18 @@ START_TEST(scene_with_as_many_occluders_stays_within_the_budget)
 {
     double bytes = bytes_per_object((how)_i, OBJECTS);
     ck_assert_double_gt(bytes, 96.0);
+    ck_assert_double_le(bytes, MOST_BYTES);
+}
+END_TEST
+
+START_TEST(free_occluders_take_no_more)
+{
+    nobodys_every = 1 + 2 * ((uint32_t)_i % 2);
+    double bytes = bytes_per_object((how)(_i / 2), OBJECTS);
+    ck_assert_double_gt(bytes, 96.0);
+    ck_assert_double_le(bytes, MOST_BYTES);
+    nobodys_every = 3;
+    bytes = bytes_per_object(EDITED, OBJECTS / 2);
     ck_assert_double_le(bytes, MOST_BYTES);
 }
 END_TEST
@@ -178,10 +207,12 @@ int main(void)
 {
     Suite *suite = suite_create("scene_memory");
     TCase *budget = tcase_create("budget");
+    tcase_add_checked_fixture(budget, everybody, NULL);
     tcase_add_loop_test(budget, scene_with_half_as_many_occluders_stays_within_the_budget, 0, HOWS);
     // Grown one by one there may be an eighth of room to spare, which would not fit.
     tcase_add_loop_test(budget, scene_with_as_many_occluders_stays_within_the_budget, 0,
                         ONE_BY_ONE);
+    tcase_add_loop_test(budget, free_occluders_take_no_more, 0, 2 * ONE_BY_ONE);
     tcase_add_loop_test(budget, scene_built_at_once_holds_little_more_than_its_tables, 0,
                         ONE_BY_ONE);
     suite_add_tcase(suite, budget);

@@ -6,6 +6,7 @@
 #include "error_measure.h"
 #include "error_report.h"
 #include "error_scene.h"
+#include "error_target.h"
 #include "options.h"
 #include "timing.h"
 
@@ -28,6 +29,10 @@ static const char error_usage[] =
     "                 families)\n"
     "  --hard         the hard families too where scenes are named\n"
     "  --quick        scenes of at most 10,000 objects, fewer settings and worlds\n"
+    "  --targets      instead: the default method alone, on one thread and two, on the scenes "
+    "with\n"
+    "                 goals and on two other seeds of each (NAME_seed11, NAME_seed12); writes\n"
+    "                 targets.md and targets.csv. With --quick small scenes and their own seeds\n"
     "  --settle N     objects of a result that are put to the exact judge where it and sampling "
     "do\n"
     "                 not agree, at most (default 3000; needs a build with GMP)\n"
@@ -35,13 +40,15 @@ static const char error_usage[] =
     "at\n"
     "                 too, at most (default 300)\n"
     "  --size WxH     samples of truths (default 4096x2304)\n"
-    "  --repeat R     timed culls of each frame (default 3)\n"
+    "  --repeat R     timed culls of each frame (default 3; with --targets 5, in each of three\n"
+    "                 rounds, and 20 times that where the scene has a single frame)\n"
     "\n"
     "Exit status 3 if a method that promises not to hides a visible object (with a tolerance it\n"
     "makes no such promise), or if backends\n"
     "disagree about an object.\n"
     "\n"
-    "Example: occlude-bench error --quick --out error\n";
+    "Examples: occlude-bench error --quick --out error\n"
+    "          occlude-bench error --targets --scenes build/scenes --out build/targets\n";
 
 enum { MAX_SCENES = 32, SETTLED_DEFAULT = 3000, HIDDEN_DEFAULT = 300, STATUS_FALSE_HIDDEN = 3 };
 
@@ -51,6 +58,7 @@ typedef struct error_arguments {
     const char *scenes[MAX_SCENES]; // none: all
     int scene_count;
     bool wants_hard; // though scenes are named
+    bool wants_targets;
     error_options options;
 } error_arguments;
 
@@ -80,15 +88,16 @@ static bool is_name(const char *text)
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_error(int argc, char **argv, error_arguments *arguments)
 {
-    *arguments = (error_arguments){
-        .out = "error",
-        .size = "4096x2304",
-        .options = {.repeats = 3, .settle = SETTLED_DEFAULT, .hidden = HIDDEN_DEFAULT}};
+    *arguments =
+        (error_arguments){.out = "error",
+                          .size = "4096x2304",
+                          .options = {.settle = SETTLED_DEFAULT, .hidden = HIDDEN_DEFAULT}};
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
                                      {"--scenes", OPTIONS_TEXT, &arguments->folder},
                                      {"--size", OPTIONS_TEXT, &arguments->size},
                                      {"--hard", OPTIONS_FLAG, &arguments->wants_hard},
                                      {"--quick", OPTIONS_FLAG, &arguments->options.is_quick},
+                                     {"--targets", OPTIONS_FLAG, &arguments->wants_targets},
                                      {"--settle", OPTIONS_COUNT, &arguments->options.settle},
                                      {"--hidden", OPTIONS_COUNT, &arguments->options.hidden},
                                      {"--repeat", OPTIONS_COUNT, &arguments->options.repeats},
@@ -98,6 +107,10 @@ static int parse_error(int argc, char **argv, error_arguments *arguments)
     int count = options_parse(argc, argv, entries, words, 0);
     if (count == OPTIONS_HELP) return OPTIONS_HELP;
     if (count == OPTIONS_BAD) return 2;
+    if (arguments->options.repeats == 0)
+        arguments->options.repeats = arguments->wants_targets ? 5 : 3;
+    if (arguments->wants_targets && arguments->wants_hard)
+        return options_complain(argv[0], "--targets has no hard families: leave out --hard");
     const options_extent least = {1, 1};
     if (!options_size(arguments->size, least, TRUTH_MAX_SIDE, &arguments->extent))
         return options_complain(argv[0], "expected --size as 4096x2304, 16384x16384 at most");
@@ -185,10 +198,31 @@ static error_status run_hard(error_findings *findings)
     return status;
 }
 
+static int run_targets(const error_arguments *arguments, const error_truths *truths)
+{
+    const error_options *options = &arguments->options;
+    const error_target_options wanted = {.folder = arguments->folder,
+                                         .scenes = arguments->scenes,
+                                         .scene_count = arguments->scene_count,
+                                         .is_quick = options->is_quick,
+                                         .repeats = options->repeats,
+                                         .limits = {options->settle, options->hidden},
+                                         .truths = *truths};
+    error_targets targets = {0};
+    bool good = error_targets_run(&wanted, &targets) &&
+                error_targets_report(arguments->out, &wanted, &targets);
+    if (good) error_targets_totals(stdout, &targets);
+    error_target_faults faults = error_targets_faults(&targets);
+    error_targets_free(&targets);
+    if (!good) return 1;
+    return faults.false_hidden > 0 || faults.different > 0 ? STATUS_FALSE_HIDDEN : 0;
+}
+
 static int run(const error_arguments *arguments, const error_truths *truths,
                error_findings *findings)
 {
     if (!make_folder(arguments->out) || !make_folder(truths->folder)) return 1;
+    if (arguments->wants_targets) return run_targets(arguments, truths);
     error_status status = run_scenes(arguments, truths, &findings->scenes);
     if (status == ERROR_UNUSABLE) return 1;
     bool wants_hard = arguments->scene_count == 0 || arguments->wants_hard;
@@ -210,8 +244,9 @@ int bench_error(int argc, char **argv)
     char *truth_folder = malloc(size);
     if (!truth_folder) return 1;
     snprintf(truth_folder, size, "%s/truth", arguments.out);
-    arguments.options.has_opencl = error_has_opencl();
-    if (!arguments.options.has_opencl) puts("no OpenCL device: the opencl backend is left out");
+    arguments.options.has_opencl = !arguments.wants_targets && error_has_opencl();
+    if (!arguments.wants_targets && !arguments.options.has_opencl)
+        puts("no OpenCL device: the opencl backend is left out");
     error_findings findings = {.options = arguments.options,
                                .scenes = {.driver = "none", .peer = "none"}};
     const error_truths truths = {truth_folder, arguments.extent.width, arguments.extent.height};

@@ -38,30 +38,39 @@ bool error_scene_has_tolerance(const char *name)
     return !source || source->has_tolerance;
 }
 
-static error_load make(const char *name, obs_scene *scene)
+static error_load make(const error_source *source, obs_scene *scene)
 {
-    const error_source *source = error_source_find(name);
-    if (!source || !source->kind) return ERROR_ABSENT;
+    if (!source->kind) return ERROR_ABSENT;
     if (scenes_make(source->kind, source->count, source->seed, scene)) return ERROR_LOADED;
-    fprintf(stderr, "occlude-bench: not enough memory for the scene %s\n", name);
+    fprintf(stderr, "occlude-bench: not enough memory for the scene %s\n", source->name);
     return ERROR_FAILED;
+}
+
+error_load error_scene_load_source(const char *folder, const error_source *source, obs_scene *scene,
+                                   bool *is_file)
+{
+    *scene = (obs_scene){0};
+    *is_file = false;
+    if (!folder) return make(source, scene);
+    size_t size = strlen(folder) + strlen(source->name) + sizeof "/.obs";
+    char *path = malloc(size);
+    if (!path) return ERROR_FAILED;
+    snprintf(path, size, "%s/%s.obs", folder, source->name);
+    error_load load;
+    *is_file = access(path, F_OK) == 0;
+    if (*is_file)
+        load = obs_read(path, scene) ? ERROR_LOADED : ERROR_FAILED;
+    else
+        load = make(source, scene);
+    free(path);
+    return load;
 }
 
 error_load error_scene_load(const char *folder, const char *name, obs_scene *scene)
 {
-    *scene = (obs_scene){0};
-    if (!folder) return make(name, scene);
-    size_t size = strlen(folder) + strlen(name) + sizeof "/.obs";
-    char *path = malloc(size);
-    if (!path) return ERROR_FAILED;
-    snprintf(path, size, "%s/%s.obs", folder, name);
-    error_load load;
-    if (access(path, F_OK) == 0)
-        load = obs_read(path, scene) ? ERROR_LOADED : ERROR_FAILED;
-    else
-        load = make(name, scene);
-    free(path);
-    return load;
+    const error_source *source = error_source_find(name), unknown = {.name = name};
+    bool is_file;
+    return error_scene_load_source(folder, source ? source : &unknown, scene, &is_file);
 }
 
 static float scaled(float value, double factor)

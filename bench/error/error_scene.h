@@ -35,6 +35,10 @@ typedef enum error_load {
 /// Reads FOLDER/NAME.obs if it is there (`folder` may be NULL), else makes the scene.
 error_load error_scene_load(const char *folder, const char *name, obs_scene *scene);
 
+/// The same for a source that need not be one of error_sources. `*is_file` tells which it was.
+error_load error_scene_load_source(const char *folder, const error_source *source, obs_scene *scene,
+                                   bool *is_file);
+
 /// A copy of the scene as if its unit of length were another: every box, the eye, the translation
 /// of the view and of the projection times `factor`. With a power of two nothing is rounded. False
 /// when memory runs out.

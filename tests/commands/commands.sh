@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
 # its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
-# settle, settle_absent (a build without GMP), cull, picture, error, error_hard, and wrong, which must fail.
+# settle, settle_absent (a build without GMP), cull, picture, seed, error, error_hard, targets, and wrong,
+# which must fail.
 set -u
 program=$1
 work=$(mktemp -d) || exit 1
@@ -301,9 +302,65 @@ error_hard_group()
     grep -q '^| panels |' report/error.md || fail "no table of the hard families"
 }
 
+# target SCENE COLUMN: a cell of report/targets.csv.
+target()
+{
+    sed -e '/^#/d' report/targets.csv | awk -F, -v scene="$1" -v name="$2" '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) wanted = i }
+        NR > 1 && $1 == scene && wanted { print $wanted }'
+}
+
+targets_group()
+{
+    quick='error --targets --out report --scenes . --repeat 1 --size 512x288'
+    expect 2 err '--targets has no hard families' error --targets --hard
+    mkdir report
+    expect 1 err 'nameless is no scene of --targets' $quick --scene city_1000 --scene nameless
+    expect 1 err 'seedscene_500 is no scene of --targets' $quick --scene seedscene_500
+
+    # One scene that its generator makes, and one from a file that is called as another seed.
+    expect 0 out ' objects, ' scene city 100 7 --out city_1000_seed11.obs
+    expect 0 out 'scene=city_1000_seed11 seed=11 from=file ' \
+        $quick --scene city_1000 --scene city_1000_seed11
+    grep -q '^scene=city_1000 seed=2 from=generator method=fused objects=1001 frames=60 ' out ||
+        fail "no line for city_1000"
+    grep -q '^- false-hidden objects, all scenes: 0 (limit 0: met)$' out || fail "false-hidden objects"
+    grep -q '^- scenes where one thread and two gave other masks: 0 (limit 0: met)$' out ||
+        fail "masks depend on the number of threads"
+    sed -e '/^#/d' report/targets.csv | awk -F, 'NR == 1 { wide = NF } NF != wide { exit 1 }' ||
+        fail "rows of another width"
+    [ "$(target city_1000 target_ms) $(target city_1000 target_missed_pct)" = '0.02 1.9' ] || fail "another target"
+    [ "$(target city_1000 same_masks) $(target city_1000 truth_frames)" = 'yes 3' ] || fail "another row"
+    [ -z "$(target city_1000 peer_fast_ms)" ] || fail "other programs' figures for other boxes"
+    [ "$(target city_1000_seed11 objects)" = 161 ] || fail "the file was not taken"
+    for key in median_ms p99_ms max_ms first_ms first_warm_ms two_threads_ms build_ms; do
+        target city_1000 $key | awk '!($1 > 0) { bad = 1 } END { exit bad || NR != 1 }' || fail "$key is not a time"
+    done
+    grep -q '^| city_1000 | 1001 | ' report/targets.md || fail "no row in report/targets.md"
+}
+
+seed_group()
+{
+    expect 0 out 'usage: occlude-bench seed' seed --help
+    expect 2 err 'expected fused or single after --method' seed --method frustum
+    expect 2 err 'expected numbers from 1 to 20000000, parted by commas' seed --counts 1,,2
+    for method in single fused; do
+        expect 0 out "method $method, backend openmp" \
+            seed --method $method --counts 10,501 --scenes 2 --repeat 1 --csv $method.csv
+        grep -q "^# method=$method\$" $method.csv || fail "no line # method="
+        awk -F, '/^501,/ && NF == 8 && $5 > 0 && $7 == "6.97" && $8 > 501 * 48 { good = 1 } END { exit !good }' \
+            $method.csv || fail "another row of 501 objects"
+    done
+    # Fusion hides more, never less.
+    [ "$(awk -F, '/^501,/ { printf "%d", 10 * $4 }' fused.csv)" -le \
+        "$(awk -F, '/^501,/ { printf "%d", 10 * $4 }' single.csv)" ] || fail "fused leaves more than single"
+}
+
 case $2 in
 cull) cull_group ;;
 picture) picture_group ;;
+seed) seed_group ;;
+targets) targets_group ;;
 error) error_group ;;
 error_hard) error_hard_group ;;
 truth) truth_group ;;

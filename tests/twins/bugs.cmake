@@ -176,8 +176,8 @@ occ_plant(explains_less ${in_explain} REPLACE "occ_view_fits(view, occluders, ca
     BY "occ_view_fits(view, occluders, capacity, found.count -= found.count > 1, count)")
 occ_caught_by(explains_less explain judged "${past_those}")
 # One that shrinks too far, and one that takes an object's own occluders.
-occ_plant(explains_too_little ${in_explain} REPLACE "if (!prove(frame, claim, &fewer, &used)) continue;"
-    BY "if (!prove(frame, claim, &fewer, &used)) used = fewer;")
+occ_plant(explains_too_little ${in_explain} REPLACE "prove(frame, claim, fewer.place, fewer.count, &used)) continue;"
+    BY "prove(frame, claim, fewer.place, fewer.count, &used)) used = fewer;")
 occ_caught_by(explains_too_little explain judged "${past_those}")
 occ_plant(explains_by_own ${in_explain} REPLACE "if (shadow->owner == row) continue;" BY "(void)row;")
 occ_caught_by(explains_by_own explain judged "[a-z_]+ [0-9]+: object [0-9]+ is hidden by its own")
