@@ -146,9 +146,9 @@ void crowd_around(kit_random *random, crowd *c, uint32_t objects)
 
 // --- frames --------------------------------------------------------------------------------------
 
-static void add_shadow(crowd_frame *f, uint32_t slot)
+static void add_shadow(crowd_frame *f, uint32_t row)
 {
-    const occ_box *box = &occ_scene_occluder_boxes(f->scene)[slot];
+    const occ_box *box = &occ_scene_occluder_boxes(f->scene)[row];
     occ_relative_box relative = occ_frame_relative(&f->frame, box);
     float h[3];
     for (int j = 0; j < 3; j++)
@@ -156,7 +156,7 @@ static void add_shadow(crowd_frame *f, uint32_t slot)
     occ_projection seen;
     f->frame.lanes->project(&f->frame.camera.screen, &relative, &seen);
     float key = occ_frame_nearness(&f->frame, relative.t, h);
-    ck_assert_int_eq(occ_occluders_add(&f->frame, slot, key, &seen), OCC_SUCCESS);
+    ck_assert_int_eq(occ_occluders_add(&f->frame, row, key, &seen), OCC_SUCCESS);
 }
 
 void crowd_frame_open(crowd_frame *f, const crowd *c, double tolerance)
@@ -172,8 +172,8 @@ void crowd_frame_open(crowd_frame *f, const crowd *c, double tolerance)
     f->frame.scene = f->scene;
     f->frame.camera.tolerance = tolerance;
     occ_occluders_clear(&f->frame);
-    for (uint32_t slot = 0; slot < c->occluder_count; slot++)
-        add_shadow(f, slot);
+    for (uint32_t row = 0; row < c->occluder_count; row++)
+        add_shadow(f, row);
 }
 
 void crowd_frame_close(crowd_frame *f)

@@ -32,7 +32,7 @@ void crowd_panels(kit_random *random, crowd *c, uint32_t objects);
 // 2^40 and with a matrix that is multiplied by anything; the camera may be skewed.
 void crowd_around(kit_random *random, crowd *c, uint32_t objects);
 
-// A frame with the shadows of all of its occluders, in the order of their slots.
+// A frame with the shadows of all of its occluders, in the order of their rows.
 typedef struct crowd_frame {
     occ_hooks hooks;
     occ_scene *scene;

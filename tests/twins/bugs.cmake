@@ -4,6 +4,7 @@
 set(can_be_seen "duel [0-9]+: hidden, but it can be seen")
 set(decided_otherwise "range [0-9]+ is decided otherwise")
 set(frustum_plane "frustum plane [0-5]: the offset [-+.0-9a-fpx]+ is too far")
+set(answers_differ "[a-z0-9]+: (hidden [01]|another list)|hidden [01], where C says [0-3]|gather: hidden [01] in C")
 set(in_kernels IN kernels/geometry.h)
 set(in_shadow IN src/shadow.c COMPILE shadow.c)
 set(in_camera IN src/camera.c COMPILE camera.c)
@@ -52,7 +53,7 @@ set(swapped ${in_kernels} REPLACE "((s) - (r) > (e))" BY "((s) - (r) >= (e))")
 occ_plant(swapped_scalar ${swapped} COMPILE backend_plain.c)
 occ_caught_by(swapped_scalar backend_edges host "plain one by one: ${decided_otherwise}")
 foreach(isa IN LISTS occ_planted_lanes)
-    occ_plant(swapped_${isa} ${swapped} COMPILE lanes_${isa})
+    occ_plant(swapped_${isa} IN src/lanes_objects.h REPLACE "above_wide(s - r, o->e)" BY "~above_wide(o->e, s - r)" COMPILE lanes_${isa})
     occ_caught_by(swapped_${isa} backend_edges host "openmp ${isa}: ${decided_otherwise}")
     occ_caught_by(swapped_${isa} lanes variants "${isa} in round [0-9]+")
 endforeach()
@@ -102,11 +103,13 @@ occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
 set(own "if (shadow->owner == row) continue;")
 occ_plant(owner_scalar IN src/backend_plain.c REPLACE "${own}" BY "" COMPILE backend_plain.c)
 occ_caught_by(owner_scalar backend_edges host "plain one by one: ${decided_otherwise}")
-occ_plant(owner_lanes IN src/lanes.c REPLACE "centers &= ~(1u << own)" BY "centers &= ~0u" COMPILE lanes_plain)
+occ_plant(owner_lanes IN src/lanes_objects.h REPLACE "centers &= ~(1u << own)" BY "centers &= ~0u" COMPILE lanes_plain)
 occ_caught_by(owner_lanes backend_edges host "openmp plain: ${decided_otherwise}")
-occ_plant(owner_node IN src/lanes.c REPLACE "& ~owners_among(siblings, shadow->owner)"
-    BY "& ~(0u * owners_among(siblings, shadow->owner))" COMPILE lanes_plain)
-occ_caught_by(owner_node lanes variants "plain in round [0-9]+")
+occ_plant(owner_node IN src/lanes_walk.h REPLACE "owner - question->first < question->rows" BY "owner - question->first < 0u * question->rows"
+    COMPILE lanes_plain)
+if(TARGET test_lanes_walk)
+    occ_caught_by(owner_node lanes_walk edges "${answers_differ}")
+endif()
 if(occ_opencl)
     occ_plant(owner_opencl IN kernels/test.cl REPLACE "${own}" BY "" COMPILE kernels)
     occ_caught_by(owner_opencl backend_edges device "opencl on a device: ${decided_otherwise}")
@@ -130,11 +133,10 @@ if(TARGET test_property)
     occ_caught_by(unmirrored regressions host "mirrored_axes_ignored.obs")
     occ_caught_by(unmirrored metamorphic judged "pairwise, mirrored, camera [0-3]: object [0-9]+ is")
 
-    set(in_select IN src/select.c COMPILE select.c)
-    occ_plant(area_of_its_own ${in_select} REPLACE "shown >= least * squared * length" BY "shown >= least * 400.0 * length")
+    occ_plant(area_of_its_own IN src/occluders.c COMPILE occluders.c REPLACE "shown >= least * squared * length" BY "shown >= least * 400.0 * length")
     occ_caught_by(area_of_its_own metamorphic exact "single, scaled, camera [0-3]: object [0-9]+ is")
-    occ_plant(odd_one_out ${in_select} REPLACE "i = 0; i < frame->scene->occluder_order.count"
-        BY "i = frame->scene->occluder_order.count % 2 * 400; i < frame->scene->occluder_order.count")
+    occ_plant(odd_one_out IN src/walk.c COMPILE walk.c REPLACE "i = 0; i < count; i++)\n        if (occ_occluders_add(frame, i,"
+        BY "i = count % 2 * 400; i < count; i++)\n        if (occ_occluders_add(frame, i,")
     occ_caught_by(odd_one_out metamorphic_edits occluders "one occluder [a-z]+: object [0-9]+ is seen again")
 endif()
 
@@ -147,13 +149,52 @@ if(TARGET test_fusion)
     occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;"
         BY "(void)by_faces;" COMPILE backend_plain.c)
     occ_caught_by(fusion_in_front fusion random "${fused_too_much}")
-    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner != row && occ" BY "if (shadow->owner != row + 1000000 && occ"
+    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "!= row && occ_fusion_consider" BY "!= row + 1000000 && occ_fusion_consider"
         COMPILE backend_plain.c)
     occ_caught_by(fusion_of_owners fusion random "${fused_too_much}")
     occ_plant(fusion_half_a_piece IN kernels/fusion.h REPLACE "if (cut == OCC_CUT_TWO) fusion->depth++;"
         BY "if (cut == OCC_CUT_TWO && p) fusion->depth++;" COMPILE backend_plain.c)
     occ_caught_by(fusion_half_a_piece fusion random "${fused_too_much}")
 endif()
+
+# In vectors: the same scenes, and what the walk asks. Where occluders are on the screen is not to
+# decide anything.
+if(TARGET test_lanes_fusion)
+    set(fused_otherwise "[a-z0-9]+ in world [0-9]+")
+    set(vectors COMPILE lanes_plain)
+    occ_plant(vectors_turned_round IN src/lanes_piece.h REPLACE "from[m][i - head]" BY "from[m][n - 1 - i]" ${vectors})
+    occ_caught_by(vectors_turned_round lanes_fusion worlds "${fused_otherwise}")
+    if("avx512" IN_LIST occ_planted_lanes)
+        occ_plant(vectors_one_late IN src/lanes_piece.h REPLACE "_mm256_set1_epi32((int)first - 1)" BY "_mm256_set1_epi32((int)first)"
+            COMPILE lanes_avx512)
+        occ_caught_by(vectors_one_late lanes_fusion worlds "${fused_otherwise}")
+    endif()
+    occ_plant(vectors_third_face_cuts_nothing IN src/lanes_fusion.h REPLACE "if (n.d == OCC_NO_PLANE_AT) return;"
+        BY "if (n.d <= OCC_NO_PLANE_AT) return;" ${vectors})
+    occ_caught_by(vectors_third_face_cuts_nothing lanes_fusion worlds "${fused_otherwise}")
+    occ_caught_by(vectors_third_face_cuts_nothing lanes_walk worlds "${answers_differ}")
+    occ_plant(vectors_third_face_holds_all IN src/lanes_fusion.h REPLACE "if (!(planes >> OCC_PLANE_LANES)) return true;"
+        BY "if (planes >> OCC_PLANE_LANES < 2u) return true;" ${vectors})
+    occ_caught_by(vectors_third_face_holds_all lanes variants "plain in round [0-9]+")
+    occ_plant(vectors_third_face_for_all IN src/lanes_fusion.h REPLACE "n.d, x, y, z) > e;" BY "n.d, x, y, z) > e && n.d < OCC_NO_PLANE_AT;" ${vectors})
+    occ_caught_by(vectors_third_face_for_all lanes_fusion worlds "${fused_otherwise}")
+    occ_plant(vectors_lose_what_the_picture_cuts IN src/lanes_fusion.h REPLACE "if (cut == OCC_CUT_INSIDE) continue;"
+        BY "if (cut == OCC_CUT_INSIDE || cut == OCC_CUT_TWO) continue;" ${vectors})
+    occ_caught_by(vectors_lose_what_the_picture_cuts lanes_fusion worlds "${fused_otherwise}")
+    occ_plant(node_in_front IN src/lanes_walk.h REPLACE "met.cutting >> OCC_FACE_LANE" BY "met.cutting >> (OCC_FACE_LANE + 3u)" ${vectors})
+    occ_caught_by(node_in_front lanes_walk worlds "${answers_differ}")
+    occ_plant(corners_beside_the_picture IN src/lanes_screen.h REPLACE "in &= inner;" BY "in &= inner | 0xffu;" ${vectors})
+    occ_caught_by(corners_beside_the_picture lanes_fusion worlds "${fused_otherwise}")
+    occ_caught_by(corners_beside_the_picture lanes_walk worlds "${answers_differ}")
+    occ_plant(rects_too_small IN src/occluders.c REPLACE "(1.0f + most) * 0x1p-10f" BY "(1.0f + most) * -0x1p-10f" COMPILE occluders.c)
+    occ_caught_by(rects_too_small lanes_fusion worlds "${fused_otherwise}")
+    occ_plant(rects_without_tolerance IN src/occluders.c REPLACE "(camera->tolerance > 0.0)" BY "(camera->tolerance > 1e9)" COMPILE occluders.c)
+    occ_caught_by(rects_without_tolerance lanes_fusion tolerance "${fused_otherwise}")
+    occ_caught_by(rects_without_tolerance tolerance backends "world [0-9]+ differs")
+endif()
+occ_plant(frustum_asks_occluders IN src/walk.c REPLACE "attached.count && frame->knobs.method != OCC_METHOD_FRUSTUM" BY "attached.count"
+    COMPILE walk.c)
+occ_caught_by(frustum_asks_occluders view stats "Assertion 'stats.walk_hidden . stats.test_hidden . stats.occluders_used == 0' failed")
 
 # --- what a tolerance may hide -------------------------------------------------------------------
 if(TARGET test_tolerance)
