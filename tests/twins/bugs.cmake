@@ -222,3 +222,6 @@ occ_plant(explains_too_little ${in_explain} REPLACE "prove(frame, claim, fewer.p
 occ_caught_by(explains_too_little explain judged "${past_those}")
 occ_plant(explains_by_own ${in_explain} REPLACE "if (shadow->owner == row) continue;" BY "(void)row;")
 occ_caught_by(explains_by_own explain judged "[a-z_]+ [0-9]+: object [0-9]+ is hidden by its own")
+# And one that does not look at the nodes with which an object fell.
+occ_plant(explains_no_nodes ${in_explain} REPLACE "for (uint32_t i = path->count; i-- > 0;)" BY "for (uint32_t i = 0; i-- > 0;)")
+occ_caught_by(explains_no_nodes explain judged "[a-z_]+ [0-9]+: object [0-9]+: OCC_ERROR_CORRUPT")
