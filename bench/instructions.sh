@@ -23,6 +23,26 @@ collected() {
     sed -n 's/^==[0-9]*== Collected : \([0-9]*\)$/\1/p' "$work/log"
 }
 
+# functions: the seven that take most of the latest run. Those of one name count as one.
+functions() {
+    callgrind_annotate "$work/callgrind.out" | awk '
+        /file:function/ { on = 1 }
+        on && match($0, /\([ 0-9.]*%\)/) {
+            share = substr($0, RSTART + 1, RLENGTH - 3)
+            name = substr($0, RSTART + RLENGTH)
+            sub(/ \[.*/, "", name)
+            sub(/.*:/, "", name)
+            sub(/\047[0-9]*$/, "", name)
+            if (!(name in shares)) names[++found] = name
+            shares[name] += share
+        }
+        END {
+            for (i = 1; i <= 7 && i <= found; i++)
+                printf "%s`%s` %.0f %%", (i > 1 ? ", " : ""), names[i], shares[names[i]]
+            print (found ? "" : "?")
+        }'
+}
+
 # summary KEY: of the latest run's last line.
 summary() {
     sed -n "s/^scene=.* $1=\([0-9.]*\).*/\1/p" "$work/log"
@@ -40,6 +60,10 @@ END
         frames=$(summary frames)
         printf '| %s %s, seed %s | %s | %s | %s | %s |\n' "$kind" "$count" "$seed" "$method" "$frames" \
             "$(summary visible)" "$(((twice - once + frames / 2) / frames))" >>"$work/lines"
+        if [ "$method" = fused ]; then
+            collected 9 >/dev/null # so often that the count of what is in the frustum hardly shows
+            printf -- '- %s %s: %s\n' "$kind" "$count" "$(functions)" >>"$work/shares"
+        fi
     done
 done
 
@@ -61,6 +85,10 @@ $(sed -n -e '/^# compiler=/p' -e '/^# flags=/p' -e '/^# commit=/p' "$work/rows.c
 |---|---|---:|---:|---:|
 END
     cat "$work/lines"
+    echo
+    echo "Where they go in \`fused\`, functions that the compiler inlined counted with their callers:"
+    echo
+    cat "$work/shares"
 } >"$work/table.md"
 cat "$work/table.md"
 if [ -n "$out" ]; then cp "$work/table.md" "$out"; fi

@@ -182,7 +182,7 @@ static void destroy(occ_tester *base)
     occ_free(base->hooks, backend, sizeof *backend);
 }
 
-static const occ_backend_ops opencl_ops = {"opencl", upload, test, read_verdicts, destroy};
+static const occ_backend_ops opencl_ops = {"opencl", upload, test, NULL, read_verdicts, destroy};
 
 occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **backend)
 {

@@ -63,7 +63,7 @@ static void destroy(occ_tester *backend)
 
 occ_result occ_backend_plain_create(occ_hooks *hooks, occ_tester **backend)
 {
-    static const occ_backend_ops ops = {"plain", upload, test, read_nothing, destroy};
+    static const occ_backend_ops ops = {"plain", upload, test, NULL, read_nothing, destroy};
     *backend = occ_alloc(hooks, sizeof **backend);
     if (!*backend) return OCC_ERROR_OUT_OF_MEMORY;
     **backend = (occ_tester){&ops, hooks, 0};

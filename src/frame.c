@@ -24,6 +24,29 @@ void occ_frame_free(occ_frame *frame)
         if (arrays[i]->element) occ_array_free(frame->hooks, arrays[i]);
 }
 
+void *occ_frame_extend(occ_frame *frame, occ_array *array, size_t more)
+{
+    bool moves = more > array->capacity - array->count;
+    if (moves) occ_stream_pause(frame->stream);
+    void *place = occ_array_extend(frame->hooks, array, more);
+    if (moves) occ_frame_set_job(frame);
+    return place;
+}
+
+void occ_frame_set_job(occ_frame *frame)
+{
+    frame->set = occ_occluders_so_far(frame);
+    frame->job = (occ_test_job){.scene = frame->scene,
+                                .eye = &frame->camera.constants,
+                                .screen = &frame->camera.screen,
+                                .set = &frame->set,
+                                .ranges = frame->ranges.data,
+                                .range_count = frame->ranges.count,
+                                .candidates = frame->candidates.data,
+                                .candidate_count = frame->candidates.count,
+                                .verdicts = frame->verdicts.data};
+}
+
 float occ_frame_nearness(const occ_frame *frame, const float t[3], const float h[3])
 {
     const occ_camera *camera = &frame->camera;

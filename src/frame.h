@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame on its way: the occluders that select.c froze and the ranges that walk.c left open. The
+// One frame on its way: the occluders that the walk found and the ranges that it left open. The
 // arrays belong to a view and keep their memory from frame to frame.
 #ifndef OCC_FRAME_H
 #define OCC_FRAME_H
@@ -22,18 +22,29 @@ typedef struct occ_frame {
     occ_array rects;   // of occ_rect_block: where they are on the screen
 
     // walk.c
-    occ_array heap;    // of walk_entry
-    occ_array pool;    // of uint32_t: the lists of shadows of the heap's entries and of the ranges
-    uint32_t hint;     // which corner of a node to ask first
-    occ_array open;    // of open_range
-    occ_array touched; // of uint8_t
-    occ_array ranges;  // of occ_range
+    occ_array heap;       // of occ_walk_entry
+    occ_array open;       // of open_range
+    occ_array closing;    // of occ_walk_entry: the open ranges, by their farthest points
+    uint32_t hint;        // which corner of a node to ask first
+    occ_array ranges;     // of occ_range
     occ_array candidates; // of uint32_t: the candidate lists of the ranges
-    occ_array verdicts;   // of occ_verdict, filled by the backend
+    occ_array verdicts;   // of occ_verdict, one per range: the backend's
+
+    // Where tests run while the walk goes on. What they read is in `job`, and moves only while they
+    // pause.
+    occ_stream *stream;
+    occ_shadow_set set;
+    occ_test_job job;
 } occ_frame;
 
 void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes);
 void occ_frame_free(occ_frame *frame);
+
+// Makes room in an array that tests may be reading: as occ_array_extend().
+void *occ_frame_extend(occ_frame *frame, occ_array *array, size_t more);
+
+// Lets the backend read what there is now, all ranges so far.
+void occ_frame_set_job(occ_frame *frame);
 
 // Walks the octree of the objects, front to back: chooses this frame's occluders, decides whole
 // nodes, and lists the ranges that stay open.

@@ -77,11 +77,11 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     const occ_scene *scene = frame->scene;
     uint32_t slot = scene->occluder_rows.slot_of[row], owner = occ_scene_owner_row(scene, row);
     uint32_t lane = frame->shadows.count % OCC_SHADOW_LANES;
-    occ_shadow *shadow = occ_array_extend(frame->hooks, &frame->shadows, 1);
-    occ_wide_shadow *wide = occ_array_extend(frame->hooks, &frame->wide, 1);
-    occ_occluder *source = occ_array_extend(frame->hooks, &frame->sources, 1);
+    occ_shadow *shadow = occ_frame_extend(frame, &frame->shadows, 1);
+    occ_wide_shadow *wide = occ_frame_extend(frame, &frame->wide, 1);
+    occ_occluder *source = occ_frame_extend(frame, &frame->sources, 1);
     if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
-    if (!occ_array_extend(frame->hooks, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
+    if (!occ_frame_extend(frame, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
     if (!occ_shadow_init(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);

@@ -58,16 +58,45 @@ static bool do_one(occ_team *team)
     return true;
 }
 
-static void wait_a_little(uint32_t *looks)
+void occ_wait_a_little(uint32_t *looks)
 {
     if (++*looks % SPINS == 0) thrd_yield();
 }
 
-static void take_parts(occ_team *team)
+void occ_first_and_others(uint32_t threads, void (*first)(void *context),
+                          void (*others)(void *context), void *context)
 {
+    if (threads < 2) {
+        first(context);
+        return;
+    }
+#pragma omp parallel default(none) shared(first, others, context) num_threads((int)threads)
+    if (omp_get_thread_num()) {
+        others(context);
+    } else {
+        first(context);
+    }
+}
+
+typedef struct team_call {
+    occ_team *team;
+    void (*body)(occ_team *team, void *context);
+    void *context;
+} team_call;
+
+static void take_parts(void *context)
+{
+    occ_team *team = ((team_call *)context)->team;
     uint32_t looks = 0;
     while (!atomic_load_explicit(&team->over, memory_order_acquire))
-        if (!do_one(team)) wait_a_little(&looks);
+        if (!do_one(team)) occ_wait_a_little(&looks);
+}
+
+static void run_body(void *context)
+{
+    team_call *call = context;
+    call->body(call->team, call->context);
+    atomic_store_explicit(&call->team->over, true, memory_order_release);
 }
 
 void occ_with_team(uint32_t threads, void (*body)(occ_team *team, void *context), void *context)
@@ -77,13 +106,8 @@ void occ_with_team(uint32_t threads, void (*body)(occ_team *team, void *context)
         return;
     }
     occ_team team = {.size = threads};
-#pragma omp parallel default(none) shared(team, body, context) num_threads((int)threads)
-    if (omp_get_thread_num()) {
-        take_parts(&team);
-    } else {
-        body(&team, context);
-        atomic_store_explicit(&team.over, true, memory_order_release);
-    }
+    team_call call = {&team, body, context};
+    occ_first_and_others(threads, run_body, take_parts, &call);
 }
 
 // Hands out a step and takes part in it.
@@ -99,10 +123,23 @@ static void do_step(occ_team *team, uint32_t parts, void (*work)(void *job, uint
         ;
     uint32_t looks = 0;
     while (atomic_load_explicit(&team->done, memory_order_acquire) != parts)
-        wait_a_little(&looks);
+        occ_wait_a_little(&looks);
 }
 
 #else
+
+void occ_wait_a_little(uint32_t *looks)
+{
+    ++*looks;
+}
+
+void occ_first_and_others(uint32_t threads, void (*first)(void *context),
+                          void (*others)(void *context), void *context)
+{
+    (void)threads;
+    (void)others;
+    first(context);
+}
 
 void occ_with_team(uint32_t threads, void (*body)(occ_team *team, void *context), void *context)
 {

@@ -29,6 +29,14 @@ uint32_t occ_team_size(const occ_team *team);
 void occ_do_parts(occ_team *team, uint32_t parts, void (*work)(void *job, uint32_t part),
                   void *job);
 
+// Runs first(context) in this thread and others(context) in `threads` - 1 more. Where there are
+// none, only the first: it may not count on the others.
+void occ_first_and_others(uint32_t threads, void (*first)(void *context),
+                          void (*others)(void *context), void *context);
+
+// For loops that wait: lets other threads run now and then.
+void occ_wait_a_little(uint32_t *looks);
+
 // Into how many parts `count` items are cut: 1 to OCC_MOST_PARTS.
 static inline uint32_t occ_parts_of(uint32_t count)
 {

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <time.h>
 
+#define OVERLAP_OBJECTS 1000u // that the test is left with
+
 static double now_ms(void)
 {
     struct timespec time;
@@ -93,27 +95,47 @@ static occ_result set_camera(occ_view *view, const occ_camera_desc *desc)
 static occ_result run_test(occ_view *view)
 {
     occ_frame *frame = &view->frame;
-    frame->verdicts.count = 0;
-    if (!occ_array_extend(&view->hooks, &frame->verdicts, (size_t)frame->ranges.count + 1)) {
-        return OCC_ERROR_OUT_OF_MEMORY;
-    }
-    frame->verdicts.count = frame->ranges.count;
-    occ_shadow_set set = occ_occluders_so_far(frame);
-    occ_test_job job = {.scene = frame->scene,
-                        .eye = &frame->camera.constants,
-                        .screen = &frame->camera.screen,
-                        .set = &set,
-                        .ranges = frame->ranges.data,
-                        .range_count = frame->ranges.count,
-                        .candidates = frame->candidates.data,
-                        .candidate_count = frame->candidates.count,
-                        .verdicts = frame->verdicts.data};
-    if (!job.range_count) return OCC_SUCCESS; // without a read an upload would outlast the frame
     occ_tester *backend = view->backend;
+    if (!frame->ranges.count)
+        return OCC_SUCCESS; // without a read an upload would outlast the frame
+    occ_frame_set_job(frame);
     occ_result result = backend->ops->upload(backend, frame->scene);
-    if (!result) result = backend->ops->test(backend, &job);
-    if (!result) result = backend->ops->read(backend, &job);
+    if (!result) result = backend->ops->test(backend, &frame->job);
+    if (!result) result = backend->ops->read(backend, &frame->job);
     return result;
+}
+
+typedef struct walk_call {
+    occ_frame *frame;
+    occ_result result;
+    double end;
+} walk_call;
+
+static void walk_on(occ_stream *stream, void *context)
+{
+    walk_call *call = context;
+    call->frame->stream = stream;
+    call->result = occ_walk(call->frame);
+    call->frame->stream = NULL;
+    call->end = now_ms();
+}
+
+// The walk and then the test; or both at once where that has been worth while, by how much the last
+// frame left to the test.
+static occ_result walk_and_test(occ_view *view, double *walked)
+{
+    occ_frame *frame = &view->frame;
+    walk_call call = {.frame = frame};
+    bool both = view->backend->ops->overlap && view->tested >= OVERLAP_OBJECTS;
+    occ_frame_set_job(frame);
+    if (both) {
+        view->backend->ops->overlap(view->backend, &frame->job, walk_on, &call);
+    } else {
+        walk_on(NULL, &call);
+    }
+    *walked = call.end;
+    view->tested = frame->stats.tested;
+    return both || call.result ? call.result : run_test(view);
 }
 
 // Scatters the ranges' verdicts, which speak of rows, into the mask, which speaks of slots.
@@ -148,9 +170,8 @@ static occ_result run_frame(occ_view *view)
     occ_frame *frame = &view->frame;
     double start = now_ms();
     frame->stats = (occ_view_stats){.objects = frame->scene->objects.taken};
-    occ_result result = occ_walk(frame);
-    double walked = now_ms();
-    if (!result) result = run_test(view);
+    double walked = start;
+    occ_result result = walk_and_test(view, &walked);
     if (!result) result = hand_over(view);
     if (result == OCC_ERROR_OUT_OF_MEMORY) {
         occ_fail(&view->hooks, result, "no memory for the scratch of a frame");

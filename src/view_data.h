@@ -9,7 +9,8 @@ struct occ_view {
     occ_hooks hooks;
     occ_frame frame;
     occ_tester *backend;
-    occ_array mask; // of uint32_t: the latest result
+    occ_array mask;  // of uint32_t: the latest result
+    uint32_t tested; // objects, in the latest frame
     bool has_result;
     uint64_t scene_id, revision; // of which scene, and as of which commit
 };

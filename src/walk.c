@@ -59,7 +59,11 @@ static occ_result leave_open(occ_frame *frame, const occ_walk_entry *entry, uint
     open_range *range = occ_array_push(frame->hooks, &frame->open);
     if (!range) return OCC_ERROR_OUT_OF_MEMORY;
     *range = (open_range){first, count, entry->index, entry->what & OCC_WALK_PLANES};
-    return OCC_SUCCESS;
+    const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
+    occ_relative_box box = occ_frame_relative_node(frame, node);
+    float h[3] = {box.a[0], box.a[4], box.a[8]};
+    occ_walk_entry closing = {occ_frame_farness(frame, box.t, h), frame->open.count - 1, 0};
+    return occ_heap_push(frame->hooks, &frame->closing, &closing);
 }
 
 // Cuts a run of rows into ranges that share the candidates from `begin` on.
@@ -68,11 +72,14 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
     uint32_t listed = frame->candidates.count - begin;
     frame->stats.tested += open->count;
     for (uint32_t i = 0; i < open->count; i += OCC_RANGE_OBJECTS) {
-        occ_range *range = occ_array_push(frame->hooks, &frame->ranges);
-        if (!range) return OCC_ERROR_OUT_OF_MEMORY;
+        occ_range *range = occ_frame_extend(frame, &frame->ranges, 1);
+        if (!range || !occ_frame_extend(frame, &frame->verdicts, 1)) return OCC_ERROR_OUT_OF_MEMORY;
+        frame->ranges.count++;
+        frame->verdicts.count++;
         uint32_t left = open->count - i < OCC_RANGE_OBJECTS ? open->count - i : OCC_RANGE_OBJECTS;
         *range = (occ_range){open->first + i, left, begin, listed, open->planes, is_fused(frame)};
     }
+    occ_stream_offer(frame->stream, frame->ranges.count);
     return OCC_SUCCESS;
 }
 
@@ -105,20 +112,19 @@ static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t co
 }
 
 // Lists the candidates of a range: the occluders that are near enough and touch it.
-static occ_result close_range(occ_frame *frame, const open_range *open)
+static occ_result close_range(occ_frame *frame, float key, const open_range *open)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + open->node;
     occ_relative_box box = occ_frame_relative_node(frame, node);
     occ_projection seen = project(frame, &box);
-    float h[3] = {box.a[0], box.a[4], box.a[8]};
     occ_shadow_set set = occ_occluders_so_far(frame);
-    uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, (size_t)set.count + 1);
+    uint32_t *list = occ_frame_extend(frame, &frame->candidates, (size_t)set.count + 1);
     if (!list) return OCC_ERROR_OUT_OF_MEMORY;
     occ_question question = {.box = &box,
                              .seen = &seen,
                              .first = open->first,
                              .rows = open->count,
-                             .key = occ_frame_farness(frame, box.t, h),
+                             .key = key,
                              .upright = true};
     uint32_t begin = frame->candidates.count, count;
     if (frame->lanes->gather(&question, &set, list, &count)) {
@@ -128,6 +134,23 @@ static occ_result close_range(occ_frame *frame, const open_range *open)
     largest_first(&set, list, count);
     frame->candidates.count += count;
     return add_ranges(frame, open, begin);
+}
+
+static occ_result close_first(occ_frame *frame)
+{
+    occ_walk_entry next = occ_heap_pop(&frame->closing);
+    return close_range(frame, next.key, (const open_range *)frame->open.data + next.index);
+}
+
+// Closes the ranges that are wholly nearer than what is still to be looked at: no occluder that is
+// found from here on can hide any of them.
+static occ_result close_nearer(occ_frame *frame, float key)
+{
+    const occ_walk_entry *heap = frame->closing.data;
+    occ_result result = OCC_SUCCESS;
+    while (!result && frame->closing.count && heap[0].key < key)
+        result = close_first(frame);
+    return result;
 }
 
 // --- occluders -----------------------------------------------------------------------------------
@@ -318,8 +341,9 @@ occ_result occ_walk(occ_frame *frame)
 {
     frame->heap.element = sizeof(occ_walk_entry);
     frame->open.element = sizeof(open_range);
-    frame->heap.count = frame->open.count = 0;
-    frame->ranges.count = frame->candidates.count = 0;
+    frame->closing.element = sizeof(occ_walk_entry);
+    frame->heap.count = frame->open.count = frame->closing.count = 0;
+    frame->ranges.count = frame->verdicts.count = frame->candidates.count = 0;
     occ_occluders_clear(frame);
     occ_result result = OCC_SUCCESS;
     if (frame->knobs.method == OCC_METHOD_PAIRWISE) {
@@ -328,11 +352,11 @@ occ_result occ_walk(occ_frame *frame)
         result = push_roots(frame);
         while (!result && frame->heap.count) {
             occ_walk_entry entry = occ_heap_pop(&frame->heap);
-            result = visit(frame, &entry);
+            result = close_nearer(frame, entry.key);
+            if (!result) result = visit(frame, &entry);
         }
-        const open_range *open = frame->open.data;
-        for (uint32_t i = 0; i < frame->open.count && !result; i++)
-            result = close_range(frame, &open[i]);
+        while (!result && frame->closing.count)
+            result = close_first(frame);
     }
     frame->stats.occluders_used = frame->shadows.count;
     frame->stats.ranges = frame->ranges.count;

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
 # its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
-# settle, settle_absent (a build without GMP), cull, picture, seed, error, error_hard, targets, and wrong,
-# which must fail.
+# settle, settle_absent (a build without GMP), cull, picture, seed, error, error_hard, targets, and
+# wrong, which must fail.
 set -u
 program=$1
 work=$(mktemp -d) || exit 1
