@@ -23,8 +23,9 @@ static const char cull_usage[] =
     "\n"
     "Culls every frame of a scene file, and measures it. The last line printed sums it up.\n"
     "\n"
-    "  --method M         single (default): octree, chosen occluders, exact test against each\n"
-    "                     fused: the same, and what several occluders hide together\n"
+    "  --method M         fused (default): octree, chosen occluders, and what they hide, one\n"
+    "                     alone or several together\n"
+    "                     single: the same, but one occluder must hide all of an object\n"
     "                     frustum: nothing is hidden\n"
     "                     pairwise: every object against every occluder, exact test\n"
     "                     thesis: the 2019 thesis's test as published; it hides visible objects\n"
@@ -57,7 +58,7 @@ static const char cull_usage[] =
     "run\n"
     "over the frames, and in_frustum and visible are means over them.\n"
     "\n"
-    "Example: occlude-bench cull city.obs --method single --backend openmp --csv city.csv\n";
+    "Example: occlude-bench cull city.obs --method fused --backend openmp --csv city.csv\n";
 
 static bool parse_rays(const char *text, measure_settings *settings)
 {

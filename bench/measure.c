@@ -32,7 +32,7 @@ typedef struct measure_bench {
 
 measure_settings measure_defaults(void)
 {
-    return (measure_settings){.method = "single",
+    return (measure_settings){.method = "fused",
                               .repeats = 5,
                               .every = 1,
                               .builds = 1,

@@ -48,7 +48,7 @@ typedef struct measure_result {
     char driver[256];           ///< The OpenCL device and its driver, Embree, or "none".
 } measure_result;
 
-/// Method single, the OpenMP backend, five repeats, every frame.
+/// Method fused, the OpenMP backend, five repeats, every frame.
 measure_settings measure_defaults(void);
 
 /// Chooses the backend where none is named. Returns NULL, or what is wrong with the names.

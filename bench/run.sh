@@ -81,7 +81,7 @@ echo "Measuring the city..."
 for count in 1000 10000 100000 1000000; do
     "$bench" scene city $count 2 --out "$scenes/city_$count.obs" >/dev/null
     measure city_$count frustum plain
-    verdicts city_$count single
+    verdicts city_$count fused
     [ $count = 1000 ] || continue
     verdicts city_$count pairwise
     measure city_$count thesis plain --every 10 --repeat 1
@@ -91,7 +91,7 @@ echo "Measuring the other scenes..."
 for count in 1000 10000 100000; do
     "$bench" scene seedscene $count 1 --out "$scenes/seedscene_$count.obs" >/dev/null
     measure seedscene_$count frustum plain
-    verdicts seedscene_$count single --repeat 21
+    verdicts seedscene_$count fused --repeat 21
     [ $count = 1000 ] || continue
     verdicts seedscene_$count pairwise
     measure seedscene_$count thesis plain --repeat 3
@@ -101,7 +101,7 @@ done
 "$bench" scene interior 10000 5 --out "$scenes/interior_10000.obs" >/dev/null
 for scene in forest_100000 soup_100000 interior_10000; do
     measure $scene frustum plain
-    verdicts $scene single
+    verdicts $scene fused
 done
 for scene in city_10000 interior_10000 forest_100000; do picture $scene 20; done
 picture seedscene_1000 0
@@ -115,7 +115,7 @@ for model in alphacorp.obj institute.obj sponza.ply; do
     echo "Measuring $model..."
     "$bench" convert "$models/$model" --out "$scenes/$name.obs" >"$results/$name-convert.txt"
     measure "$name" frustum plain
-    verdicts "$name" single
+    verdicts "$name" fused
     verdicts "$name" pairwise --repeat 1
     measure "$name" thesis plain --every 20 --repeat 1 --force
     picture "$name" 20

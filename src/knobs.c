@@ -17,7 +17,7 @@ static const occ_cull_desc presets[] = {
 static occ_result check_knobs(const occ_cull_desc *knobs, const occ_hooks *hooks)
 {
     const occ_result wrong = OCC_ERROR_INVALID_ARGUMENT;
-    if ((unsigned)knobs->method > OCC_METHOD_FUSED)
+    if ((unsigned)knobs->method > OCC_METHOD_SINGLE)
         return occ_fail(hooks, wrong, "there is no method %d", (int)knobs->method);
     if ((unsigned)knobs->preset > OCC_PRESET_THOROUGH)
         return occ_fail(hooks, wrong, "there is no preset %d", (int)knobs->preset);

@@ -324,7 +324,7 @@ START_TEST(zero_stands_for_the_documented_default)
         size_t words[3];
         occ_view_stats stats[3];
         for (int k = 0; k < 3; k++) {
-            const occ_cull_desc zero = {.method = OCC_METHOD_SINGLE};
+            const occ_cull_desc zero = {.method = OCC_METHOD_FUSED};
             kit_cull(view, scene, &camera, k == 0 ? NULL : k == 1 ? &zero : &documented);
             masks[k] = kit_mask(view, &words[k]);
             stats[k] = stats_of();
@@ -370,8 +370,8 @@ int main(void)
     tcase_add_test(results, occluders_that_took_part_come_nearest_first);
     suite_add_tcase(suite, results);
     TCase *stats = with_fixture(tcase_create("stats"));
-    tcase_add_loop_test(stats, stages_add_up_to_all_objects, OCC_METHOD_SINGLE,
-                        OCC_METHOD_FUSED + 1);
+    tcase_add_loop_test(stats, stages_add_up_to_all_objects, OCC_METHOD_FUSED,
+                        OCC_METHOD_SINGLE + 1);
     tcase_add_test(stats, frustum_alone_hides_nothing);
     tcase_add_test(stats, pairs_are_tested_without_a_walk);
     tcase_add_test(stats, no_more_occluders_are_used_than_asked_for);

@@ -133,7 +133,7 @@ END_TEST
 START_TEST(method_that_does_not_exist_is_refused)
 {
     occ_camera_desc camera = kit_path(0);
-    occ_cull_desc knobs = {.method = (occ_method)(OCC_METHOD_FUSED + 1)};
+    occ_cull_desc knobs = {.method = (occ_method)(OCC_METHOD_SINGLE + 1)};
     check_refused(&camera, &knobs, OCC_ERROR_INVALID_ARGUMENT, "method 4");
     knobs.method = (occ_method)-1;
     check_refused(&camera, &knobs, OCC_ERROR_INVALID_ARGUMENT, "method -1");

@@ -59,12 +59,11 @@ OCC_API void occ_view_destroy(occ_view *view);
 
 /// How objects are decided.
 typedef enum occ_method {
-    OCC_METHOD_SINGLE =
-        0, ///< Octrees, chosen occluders, and the exact test against each (default).
+    /// Octrees, chosen occluders, and what they hide, one alone or several together (default).
+    OCC_METHOD_FUSED = 0,
     OCC_METHOD_FRUSTUM = 1,  ///< The frustum alone: nothing is hidden.
     OCC_METHOD_PAIRWISE = 2, ///< Every object against every occluder. The baseline; quadratic.
-    /// As SINGLE; then what several occluders hide together. Misses far less, takes longer.
-    OCC_METHOD_FUSED = 3
+    OCC_METHOD_SINGLE = 3    ///< As FUSED, but one occluder must hide all of an object or node.
 } occ_method;
 
 /// What a knob that is left 0 stands for. The figures are in docs/concepts.md.
@@ -80,7 +79,7 @@ typedef enum occ_preset {
 /// The knobs. All zero, or no desc at all, is a good default. They trade missed objects for time;
 /// none of them can hide a visible object as long as `tolerance` is 0, whatever else is set.
 typedef struct occ_cull_desc {
-    occ_method method; ///< Default: single.
+    occ_method method; ///< Default: fused.
     occ_preset preset; ///< Sets those of the knobs below that are 0. Default: balanced.
     /// The smallest solid angle, in steradians, at which an occluder is worth using: about its
     /// projected area over its distance squared; for an orthographic camera, over the view's area.
