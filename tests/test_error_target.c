@@ -120,6 +120,15 @@ START_TEST(growth_and_build_are_of_one_seed)
 }
 END_TEST
 
+START_TEST(interruptions_add_up)
+{
+    error_target rows[] = {good_row("city_10000", 0), good_row("city_10000", 1)};
+    rows[0].interruptions = 40;
+    rows[1].interruptions = 2;
+    expect_line(rows, 2, "- other processes interrupted the timing 42 times\n");
+}
+END_TEST
+
 START_TEST(goals_count_for_their_own_seed_alone)
 {
     error_target rows[] = {good_row("city_10000", 0), good_row("city_10000", 1),
@@ -183,6 +192,7 @@ int main(void)
     tcase_add_test(totals, the_slowest_frame_of_any_scene_counts);
     tcase_add_test(totals, two_threads_need_not_help_where_one_is_fast);
     tcase_add_test(totals, growth_and_build_are_of_one_seed);
+    tcase_add_test(totals, interruptions_add_up);
     tcase_add_test(totals, goals_count_for_their_own_seed_alone);
     suite_add_tcase(suite, totals);
     TCase *rows = tcase_create("rows");

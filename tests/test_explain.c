@@ -5,9 +5,10 @@
 // timeout: 120
 #include "families.h"
 #include "judge.h"
+#include "obs.h"
 #include "scenes.h"
 
-#include "kit.h"
+#include "kit_obs.h"
 #include "support.h"
 #include "worlds.h"
 
@@ -344,14 +345,6 @@ END_TEST
 
 static const char *const scene_names[] = {"city", "soup", "interior"};
 
-static void look(explained_world *w, const obs_frame *frame, double eye[3])
-{
-    w->camera = (occ_camera_desc){.depth = OCC_DEPTH_MINUS_ONE_TO_ONE, .eye = eye};
-    obs_view_projection(frame, w->camera.view_projection);
-    for (int j = 0; j < 3; j++)
-        eye[j] = (double)frame->eye[j];
-}
-
 START_TEST(what_a_scene_hides_is_hidden_by_those_named)
 {
     obs_scene file;
@@ -371,7 +364,7 @@ START_TEST(what_a_scene_hides_is_hidden_by_those_named)
     for (uint32_t f = 0; f < file.frame_count; f += file.frame_count / WORLD_SHARE(20) + 1) {
         double eye[3];
         w.seed = f;
-        look(&w, &file.frames[f], eye);
+        w.camera = kit_obs_camera(&file.frames[f], eye);
         occ_cull_desc knobs = {
             .method = OCC_METHOD_FUSED, .preset = (occ_preset)(f % 3), .grain = 16};
         cull_and_check(&w, &knobs, plain, openmp, &counts);

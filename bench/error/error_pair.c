@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _DEFAULT_SOURCE // getrusage
 #include "error_pair.h"
 
 #include "timing.h"
@@ -6,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 enum { SIDES = 2, PARTS = 3 };
 
@@ -75,6 +77,12 @@ static bool run_side(measure_settings settings, const obs_scene *scene, pair_tim
     return good;
 }
 
+static uint64_t interruptions_so_far(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_nivcsw : 0;
+}
+
 bool error_pair_run(const measure_settings *settings, const obs_scene *scene, error_pair *pair)
 {
     *pair = (error_pair){.is_same = true};
@@ -83,9 +91,11 @@ bool error_pair_run(const measure_settings *settings, const obs_scene *scene, er
         calloc((size_t)scene->frame_count + 1, SIDES * PARTS * ERROR_ROUNDS * sizeof(double));
     if (!times.ms) fputs("occlude-bench: not enough memory\n", stderr);
     bool good = times.ms != NULL;
+    uint64_t before = interruptions_so_far();
     for (int round = 0; round < ERROR_ROUNDS; round++)
         for (int side = 0; side < SIDES; side++)
             good = good && run_side(*settings, scene, &times, side, round, pair);
+    pair->interruptions = interruptions_so_far() - before;
     if (good) pair->build_ms = timing_median(times.builds, ERROR_ROUNDS);
     free(times.ms);
     if (!good) error_pair_free(pair);

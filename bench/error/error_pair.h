@@ -12,6 +12,7 @@ typedef struct error_pair {
     double warm_ms;           ///< The first frame on one thread, met before.
     double build_ms;          ///< Of the scene on two threads: the median over the rounds.
     vis_result verdicts;      ///< Those of one thread.
+    uint64_t interruptions;   ///< How often other processes took a processor from this one.
     bool is_same;             ///< Every mask of every round was the same.
 } error_pair;
 

@@ -60,6 +60,7 @@ static bool measure(const error_target_options *options, const obs_scene *scene,
     row->two = pair.two;
     row->warm_ms = pair.warm_ms;
     row->build_ms = pair.build_ms;
+    row->interruptions = pair.interruptions;
     row->is_same = pair.is_same;
     bool good = measure_first_frame(&settings, scene, first_frames(scene), &row->first_ms) &&
                 judge(options, scene, &pair.verdicts, row);

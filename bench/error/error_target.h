@@ -18,18 +18,19 @@
 typedef struct error_target {
     char scene[64];
     const error_goal *goal;
-    int variant;   ///< 0: with the seed that the goal was set for.
-    uint64_t seed; ///< Of the generator, or by the file's name.
-    bool is_file;  ///< Else one of this program's generators made it.
     const error_published
-        *peers; ///< The first point of other programs on this very scene, or NULL.
+        *peers;    ///< The first point of other programs on this very scene, or NULL.
+    uint64_t seed; ///< Of the generator, or by the file's name.
+    int variant;   ///< 0: with the seed that the goal was set for.
     uint32_t objects, frames, truth_frames;
     measure_summary one, two; ///< On one thread and on two.
-    double build_ms;          ///< On two threads.
     double first_ms, warm_ms; ///< The first frame on one thread: by a fresh view, and met before.
-    bool is_same;             ///< One thread's masks and two threads' were the same.
+    double build_ms;          ///< On two threads.
+    uint64_t interruptions;   ///< By other processes, while it was timed.
     compare_sums sums;        ///< By what the judge left of the truth.
     settle_sums settled;      ///< What the judge was asked; zero without a judge.
+    bool is_file;             ///< Else one of this program's generators made it.
+    bool is_same;             ///< One thread's masks and two threads' were the same.
 } error_target;
 
 /// Rows.

@@ -23,12 +23,14 @@ void error_target_print(FILE *stream, const error_target *row)
             "scene=%s seed=%" PRIu64 " from=%s method=fused objects=%u frames=%u visible=%.1f "
             "median_ms=%.4f p99_ms=%.4f max_ms=%.4f worst=%.2f first_ms=%.4f warm_ms=%.4f "
             "two_threads_ms=%.4f "
-            "speed_up=%.2f same_masks=%s build_ms=%.2f missed_pct=%.3f false_hidden=%llu",
+            "speed_up=%.2f same_masks=%s build_ms=%.2f interruptions=%llu missed_pct=%.3f "
+            "false_hidden=%llu",
             row->scene, row->seed, row->is_file ? "file" : "generator", row->objects, row->frames,
             row->one.visible, row->one.median_ms, row->one.p99_ms, row->one.max_ms,
             error_target_worst(row), row->first_ms, row->warm_ms, row->two.median_ms,
             error_target_speed_up(row), row->is_same ? "yes" : "no", row->build_ms,
-            compare_missed_percent(&row->sums), (unsigned long long)row->sums.false_hidden);
+            (unsigned long long)row->interruptions, compare_missed_percent(&row->sums),
+            (unsigned long long)row->sums.false_hidden);
     if (row->goal->ms > 0)
         fprintf(stream, " target_ms=%g target_missed_pct=%g of_target=%.2f", row->goal->ms,
                 row->goal->missed_pct, row->one.median_ms / row->goal->ms);
@@ -54,10 +56,10 @@ static void write_csv_row(FILE *stream, const error_target *row)
             row->is_file ? "file" : "generator", row->objects, row->frames, row->truth_frames,
             (double)row->sums.visible / (row->truth_frames ? row->truth_frames : 1),
             row->one.visible);
-    fprintf(stream, "%.6f,%.6f,%.6f,%.3f,%.6f,%.6f,%.6f,%.3f,%s,%.3f,", row->one.median_ms,
+    fprintf(stream, "%.6f,%.6f,%.6f,%.3f,%.6f,%.6f,%.6f,%.3f,%s,%.3f,%llu,", row->one.median_ms,
             row->one.p99_ms, row->one.max_ms, error_target_worst(row), row->first_ms, row->warm_ms,
             row->two.median_ms, error_target_speed_up(row), row->is_same ? "yes" : "no",
-            row->build_ms);
+            row->build_ms, (unsigned long long)row->interruptions);
     fprintf(stream, "%llu,%.4f,%llu,%llu,", (unsigned long long)row->sums.missed,
             compare_missed_percent(&row->sums), (unsigned long long)row->sums.false_hidden,
             (unsigned long long)row->settled.unsettled);
@@ -83,7 +85,8 @@ static void write_csv(FILE *stream, const error_target_options *options,
     fputs("scene,seed,from,method,objects,frames,truth_frames,visible_objects,reported_objects,"
           "median_ms,p99_ms,max_ms,worst_frame,first_ms,first_warm_ms,two_threads_ms,two_threads_"
           "speed_up,"
-          "same_masks,build_ms,missed_objects,missed_pct,false_hidden_objects,unsettled_objects,"
+          "same_masks,build_ms,interruptions,missed_objects,missed_pct,false_hidden_objects,"
+          "unsettled_objects,"
           "target_ms,target_missed_pct,peer_fast_ms,peer_fast_missed_pct,peer_fast_false_objects,"
           "peer_fast_times,peer_fine_ms,peer_fine_missed_pct,peer_fine_false_objects,"
           "peer_fine_times\n",

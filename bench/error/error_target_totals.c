@@ -137,6 +137,16 @@ static void print_city(FILE *stream, const error_targets *targets, int variant)
             ratio(large->one.visible, small->one.visible));
 }
 
+// Where there are many, slowest frames and two threads' times say more about the machine.
+static void print_interruptions(FILE *stream, const error_targets *targets)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < targets->count; i++)
+        sum += targets->rows[i].interruptions;
+    fprintf(stream, "- other processes interrupted the timing %llu times\n",
+            (unsigned long long)sum);
+}
+
 void error_targets_totals(FILE *stream, const error_targets *targets)
 {
     if (targets->count == 0) return;
@@ -144,6 +154,7 @@ void error_targets_totals(FILE *stream, const error_targets *targets)
     print_faults(stream, targets);
     print_worst(stream, targets);
     print_speed_up(stream, targets);
+    print_interruptions(stream, targets);
     for (int variant = 0; variant < ERROR_VARIANTS; variant++)
         print_city(stream, targets, variant);
 }

@@ -217,8 +217,11 @@ occ_plant(explains_less ${in_explain} REPLACE "occ_view_fits(view, occluders, ca
     BY "occ_view_fits(view, occluders, capacity, found.count -= found.count > 1, count)")
 occ_caught_by(explains_less explain judged "${past_those}")
 # One that shrinks too far, and one that takes an object's own occluders.
-occ_plant(explains_too_little ${in_explain} REPLACE "if (!prove(frame, claim, &fewer, &used)) continue;"
-    BY "if (!prove(frame, claim, &fewer, &used)) used = fewer;")
+occ_plant(explains_too_little ${in_explain} REPLACE "prove(frame, claim, fewer.place, fewer.count, &used)) continue;"
+    BY "prove(frame, claim, fewer.place, fewer.count, &used)) used = fewer;")
 occ_caught_by(explains_too_little explain judged "${past_those}")
 occ_plant(explains_by_own ${in_explain} REPLACE "if (shadow->owner == row) continue;" BY "(void)row;")
 occ_caught_by(explains_by_own explain judged "[a-z_]+ [0-9]+: object [0-9]+ is hidden by its own")
+# And one that does not look at the nodes with which an object fell.
+occ_plant(explains_no_nodes ${in_explain} REPLACE "for (uint32_t i = path->count; i-- > 0;)" BY "for (uint32_t i = 0; i-- > 0;)")
+occ_caught_by(explains_no_nodes explain judged "[a-z_]+ [0-9]+: object [0-9]+: OCC_ERROR_CORRUPT")
