@@ -234,7 +234,7 @@ static void test_objects(bool fused)
     ck_assert_int_eq(occ_hooks_init(&c.hooks, &heap, &silence), OCC_SUCCESS);
     ck_assert_int_eq(occ_boxes_reserve(&c.hooks, &c.boxes, ROWS), OCC_SUCCESS);
     kit_set set;
-    uint32_t list[MOST_CANDIDATES];
+    uint32_t list[MOST_CANDIDATES] = {0};
     unsigned outside = 0, hidden = 0, visible = 0;
     for (unsigned i = 0; i < ROUNDS / 8; i++) {
         if (i % 4 == 0) make_crowd(&random, &c);

@@ -71,7 +71,7 @@ static void same_in_all(make_crowd *make, uint64_t seed, double tolerance, tally
     for (int i = 0; i < WORLDS; i++) {
         crowd c;
         crowd_frame f;
-        uint32_t list[CROWD_OCCLUDERS];
+        uint32_t list[CROWD_OCCLUDERS] = {0};
         make(&random, &c, 17 + kit_below(&random, CROWD_OBJECTS - 16));
         crowd_frame_open(&f, &c, tolerance);
         f.frame.camera.constants.splits = splits[kit_below(&random, 5)];
