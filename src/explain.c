@@ -29,7 +29,8 @@ typedef struct culprits {
 typedef struct box_proof {
     const occ_frame *frame;
     const box_claim *claim;
-    const culprits *among; // NULL: all of the frame's
+    const uint32_t *list; // which shadows, in which order; NULL: all, nearest first
+    uint32_t count;
     bool by_faces;
     occ_fusion fusion;
     culprits used;
@@ -88,11 +89,10 @@ static bool note(culprits *used, uint32_t place)
 // is none, or it cannot be done.
 static bool take_first(box_proof *proof)
 {
-    uint32_t count = proof->among ? proof->among->count : proof->frame->shadows.count;
     occ_vertex middle;
     occ_piece_middle(&proof->fusion.stack[proof->fusion.depth - 1], &middle);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t place = proof->among ? proof->among->place[i] : i;
+    for (uint32_t i = 0; i < proof->count; i++) {
+        uint32_t place = proof->list ? proof->list[i] : i;
         const occ_shadow *shadow = shadow_at(proof->frame, place);
         uint32_t planes = planes_that_cut(proof, shadow);
         if (!planes || !occ_shadow_holds(shadow, planes, &middle)) continue;
@@ -123,10 +123,10 @@ static bool covers(box_proof *proof, bool by_faces)
 
 // Whether shadows hide the box together, and which of them it takes: none if the box is outside of
 // the frustum, beyond a corner of it.
-static bool prove(const occ_frame *frame, const box_claim *claim, const culprits *among,
-                  culprits *found)
+static bool prove(const occ_frame *frame, const box_claim *claim, const uint32_t *list,
+                  uint32_t count, culprits *found)
 {
-    box_proof proof = {.frame = frame, .claim = claim, .among = among};
+    box_proof proof = {.frame = frame, .claim = claim, .list = list, .count = count};
     if (!covers(&proof, false) && (claim->node || !covers(&proof, true))) return false;
     *found = proof.used;
     return true;
@@ -139,7 +139,7 @@ static void shrink(const occ_frame *frame, const box_claim *claim, culprits *fou
         culprits fewer = *found, used;
         fewer.count--;
         memmove(&fewer.place[i], &fewer.place[i + 1], (fewer.count - i) * sizeof *fewer.place);
-        if (!prove(frame, claim, &fewer, &used)) continue;
+        if (!prove(frame, claim, fewer.place, fewer.count, &used)) continue;
         *found = used;
         if (i > found->count) i = found->count;
     }
@@ -180,12 +180,29 @@ static void find_path(const occ_frame *frame, const occ_octree *tree, uint32_t r
     } while (index && !path->outside);
 }
 
-// What hides a box, if it is hidden: one occluder, or several together.
-static bool explain_box(const occ_frame *frame, const box_claim *claim, uint32_t row,
-                        culprits *found)
+// The range in which a row was handed to the test, or NULL: it fell in the walk.
+static const occ_range *range_with(const occ_frame *frame, uint32_t row)
 {
+    const occ_range *ranges = frame->ranges.data;
+    for (uint32_t i = 0; i < frame->ranges.count; i++)
+        if (row - ranges[i].first < ranges[i].count) return &ranges[i];
+    return NULL;
+}
+
+// What hides a box, if it is hidden: one occluder, or several together, of the range's candidates
+// if there is a range.
+static bool explain_box(const occ_frame *frame, const box_claim *claim, uint32_t row,
+                        const occ_range *range, culprits *found)
+{
+    const uint32_t *list = NULL;
+    uint32_t count = frame->shadows.count;
     if (find_single(frame, claim, row, found)) return true;
-    if (frame->knobs.method != OCC_METHOD_FUSED || !prove(frame, claim, NULL, found)) return false;
+    if (frame->knobs.method != OCC_METHOD_FUSED) return false;
+    if (range) {
+        list = (const uint32_t *)frame->candidates.data + range->candidates;
+        count = range->candidate_count;
+    }
+    if (!prove(frame, claim, list, count, found)) return false;
     shrink(frame, claim, found);
     return true;
 }
@@ -201,7 +218,7 @@ static bool explain_nodes(const occ_frame *frame, const occ_octree *tree, const 
                            .first = node->first,
                            .rows = node->count,
                            .node = true};
-        if (explain_box(frame, &claim, row, found)) return true;
+        if (explain_box(frame, &claim, row, NULL, found)) return true;
     }
     return false;
 }
@@ -221,7 +238,7 @@ static occ_result explain_row(const occ_view *view, const occ_scene *scene, uint
     const float *plane = frame->camera.constants.plane[0];
     *fate = OCC_FATE_OUTSIDE;
     if (path.outside || occ_box_outside(&claim.box, plane, claim.frustum)) return OCC_SUCCESS;
-    if (!explain_box(frame, &claim, row, found) &&
+    if (!explain_box(frame, &claim, row, range_with(frame, row), found) &&
         !explain_nodes(frame, &scene->object_tree, &path, row, found)) {
         return occ_fail(&view->hooks, OCC_ERROR_CORRUPT, "row %u is hidden by nothing", row);
     }

@@ -17,9 +17,9 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
 
 void occ_frame_free(occ_frame *frame)
 {
-    occ_array *arrays[] = {&frame->shadows, &frame->wide,       &frame->sources,
-                           &frame->rects,   &frame->heap,       &frame->open,
-                           &frame->ranges,  &frame->candidates, &frame->verdicts};
+    occ_array *arrays[] = {&frame->shadows,    &frame->wide,    &frame->sources, &frame->rects,
+                           &frame->heap,       &frame->open,    &frame->closing, &frame->ranges,
+                           &frame->candidates, &frame->verdicts};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (arrays[i]->element) occ_array_free(frame->hooks, arrays[i]);
 }

@@ -328,7 +328,7 @@ static occ_result take_all(occ_frame *frame)
     for (uint32_t i = 0; i < count; i++)
         if (occ_occluders_add(frame, i, 0.0f, &anywhere)) return OCC_ERROR_OUT_OF_MEMORY;
     frame->stats.occluders_tested = count;
-    uint32_t *list = occ_array_extend(frame->hooks, &frame->candidates, frame->shadows.count + 1);
+    uint32_t *list = occ_frame_extend(frame, &frame->candidates, (size_t)frame->shadows.count + 1);
     if (!list) return OCC_ERROR_OUT_OF_MEMORY;
     for (uint32_t i = 0; i < frame->shadows.count; i++)
         list[i] = i;

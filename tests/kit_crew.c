@@ -125,17 +125,29 @@ static bool is_inner(const extent *e, const occ_box *box)
     return true;
 }
 
+// Moves a box as far as it can easily go and still keep its key. False: nowhere was found.
+static bool move_box(const occ_scene *scene, const extent *all, occ_box *box, kit_random *random)
+{
+    for (float reach = 8; reach > 1; reach /= 2) {
+        occ_box moved = *box;
+        for (int j = 0; j < 3; j++)
+            moved.center[j] += kit_between(random, -reach, reach);
+        if (!is_inner(all, box) || !is_inner(all, &moved)) continue;
+        if (key_of(scene, &moved) != key_of(scene, box)) continue;
+        *box = moved;
+        return true;
+    }
+    return false;
+}
+
 uint32_t kit_move_within_cells(occ_scene *scene, const occ_object *objects, uint32_t count,
                                kit_random *random)
 {
     extent all = extent_of(scene, objects, count);
     uint32_t moved = 0;
     for (uint32_t i = 0; i < count; i += 3) {
-        occ_box old = box_of(scene, objects[i]), box = old;
-        for (int j = 0; j < 3; j++)
-            box.center[j] += kit_between(random, -8, 8);
-        if (!is_inner(&all, &old) || !is_inner(&all, &box)) continue;
-        if (key_of(scene, &box) != key_of(scene, &old)) continue;
+        occ_box box = box_of(scene, objects[i]);
+        if (!move_box(scene, &all, &box, random)) continue;
         ck_assert_int_eq(occ_scene_move(scene, objects[i], &box), OCC_SUCCESS);
         moved++;
     }

@@ -24,9 +24,10 @@ void kit_damage_set_up(void)
     occ_object objects[60];
     ck_assert_int_eq(occ_scene_add_many(kit_victim, crowd, 60, objects), OCC_SUCCESS);
     ck_assert_int_eq(occ_scene_add_occluders(kit_victim, crowd, NULL, 60, NULL), OCC_SUCCESS);
-    for (int i = 0; i < 60; i++) // three to an owner
+    for (int i = 0; i < 60; i++) // three to an owner, and several owners to the last node
         objects[i] = objects[i / 3 * 3];
-    ck_assert_int_eq(occ_scene_add_occluders(kit_victim, crowd, objects, 30, NULL), OCC_SUCCESS);
+    ck_assert_int_eq(occ_scene_add_occluders(kit_victim, crowd, objects + 30, 30, NULL),
+                     OCC_SUCCESS);
     ck_assert_int_eq(occ_scene_commit(kit_victim), OCC_SUCCESS);
     ck_assert_int_eq(occ_scene_validate(kit_victim), OCC_SUCCESS);
     ck_assert_uint_eq(record.errors, 0);

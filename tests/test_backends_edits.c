@@ -97,6 +97,17 @@ static void move_occluders(edited *e)
     }
 }
 
+// So that they are sorted again.
+static void replace_occluder(edited *e)
+{
+    uint32_t i = kit_below(&e->random, e->file.occluder_count);
+    occ_box box;
+    occ_object owner;
+    if (occ_scene_occluder_box(e->scene, e->occluders[i], &box, &owner)) return;
+    ck_assert_int_eq(occ_scene_remove_occluder(e->scene, e->occluders[i]), OCC_SUCCESS);
+    ck_assert_int_eq(occ_scene_add_occluder(e->scene, &box, owner, &e->occluders[i]), OCC_SUCCESS);
+}
+
 static void replace(edited *e)
 {
     for (int i = 0; i < 200; i++) {
@@ -154,6 +165,7 @@ START_TEST(a_commit_that_fails_half_way_loses_no_change)
     for (uint64_t n = 1; failed; n++) {
         move_within_cells(&e);
         move_occluders(&e);
+        replace_occluder(&e);
         heap.fail_at = heap.calls + n;
         occ_result result = occ_scene_commit(e.scene);
         heap.fail_at = 0;

@@ -148,7 +148,7 @@ static uint64_t key_of(const occ_root *root, const occ_block *block, uint32_t i)
         width = fmax(width, high - low);
     }
     uint32_t level = OCC_TREE_BITS;
-    while (level && ldexp(root->size, -(int)level) < width)
+    while (level && ldexp(root->size, -(int)level) < 0.5 * width)
         level--;
     for (uint32_t bit = 0; bit < 3 * OCC_TREE_BITS; bit++) {
         bool kept = bit >= 3 * (OCC_TREE_BITS - level);

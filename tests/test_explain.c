@@ -5,9 +5,10 @@
 // timeout: 120
 #include "families.h"
 #include "judge.h"
+#include "obs.h"
 #include "scenes.h"
 
-#include "kit.h"
+#include "kit_obs.h"
 #include "support.h"
 #include "worlds.h"
 
@@ -92,8 +93,13 @@ static uint32_t place_of(const explained_world *w, occ_occluder named)
     ck_abort_msg("occluder {%u, %u} is none", named.index, named.generation);
 }
 
+// `format` goes on from "family 3: object 5 ".
+#define CHECK_OBJECT(condition, w, object, format, ...)                                            \
+    KIT_CHECK(condition, "%s %llu: object %u " format, (w)->name, (unsigned long long)(w)->seed,   \
+              (unsigned)(object), __VA_ARGS__)
+
 typedef struct explained_counts {
-    uint64_t visible, outside, by_one, by_several;
+    uint64_t outside, by_one, by_several;
 } explained_counts;
 
 // The occluders that took part.
@@ -127,21 +133,18 @@ static void check_hidden(judge *j, const explained_world *w, uint32_t object, co
 {
     occ_box boxes[MOST_NAMED];
     const occ_box *box = &w->objects[object];
-    KIT_CHECK(e->count > 0, "%s %llu: object %u is hidden by nothing", w->name,
-              (unsigned long long)w->seed, object);
+    CHECK_OBJECT(e->count > 0, w, object, "is hidden by %zu", e->count);
     for (size_t i = 0; i < e->count; i++) {
         const world_occluder *from = &w->occluders[place_of(w, e->named[i])];
-        KIT_CHECK(from->owner != (int)object, "%s %llu: object %u is hidden by its own", w->name,
-                  (unsigned long long)w->seed, object);
+        CHECK_OBJECT(from->owner != (int)object, w, object, "is hidden by its own: %zu", i);
         boxes[i] = from->box;
     }
     judge_set_occluders(j, boxes, NULL, e->count);
-    KIT_CHECK(!judge_sees(j, box, -1), "%s %llu: object %u can be seen past the %zu that hide it",
-              w->name, (unsigned long long)w->seed, object, e->count);
+    CHECK_OBJECT(!judge_sees(j, box, -1), w, object, "can be seen past the %zu that hide it",
+                 e->count);
     if (e->count == 1 && judge_frustum(j, box) == JUDGE_INSIDE)
-        KIT_CHECK(judge_single(j, box, &boxes[0]) == JUDGE_HIDDEN,
-                  "%s %llu: object %u is not hidden by the one that hides it", w->name,
-                  (unsigned long long)w->seed, object);
+        CHECK_OBJECT(judge_single(j, box, &boxes[0]) == JUDGE_HIDDEN, w, object,
+                     "can be seen past the %zu", e->count);
 }
 
 static void check_object(judge *j, const explained_world *w, const occ_view *view,
@@ -149,9 +152,7 @@ static void check_object(judge *j, const explained_world *w, const occ_view *vie
 {
     explanation e = explain(view, w, object);
     bool visible = occ_view_is_visible(view, w->handles[object]);
-    KIT_CHECK(visible == (e.fate == OCC_FATE_VISIBLE), "%s %llu: object %u has fate %d", w->name,
-              (unsigned long long)w->seed, object, (int)e.fate);
-    counts->visible += e.fate == OCC_FATE_VISIBLE;
+    CHECK_OBJECT(visible == (e.fate == OCC_FATE_VISIBLE), w, object, "has fate %d", (int)e.fate);
     counts->outside += e.fate == OCC_FATE_OUTSIDE;
     counts->by_one += e.count == 1;
     counts->by_several += e.count > 1;
@@ -160,12 +161,10 @@ static void check_object(judge *j, const explained_world *w, const occ_view *vie
         check_order(w, p, &e);
         return;
     }
-    KIT_CHECK(e.count == 0, "%s %llu: object %u is not hidden, but by %zu", w->name,
-              (unsigned long long)w->seed, object, e.count);
+    CHECK_OBJECT(e.count == 0, w, object, "is not hidden, but by %zu", e.count);
     if (e.fate == OCC_FATE_OUTSIDE)
-        KIT_CHECK(judge_frustum(j, &w->objects[object]) == JUDGE_OUTSIDE,
-                  "%s %llu: object %u is in the frustum", w->name, (unsigned long long)w->seed,
-                  object);
+        CHECK_OBJECT(judge_frustum(j, &w->objects[object]) == JUDGE_OUTSIDE, w, object,
+                     "is in the frustum: fate %d", (int)e.fate);
 }
 
 // Every object of a culled world.
@@ -184,8 +183,8 @@ static void check_same(const explained_world *w, const occ_view *a, const occ_vi
 {
     for (uint32_t i = 0; i < w->object_count; i++) {
         explanation x = explain(a, w, i), y = explain(b, w, i);
-        KIT_CHECK(kit_same_bits(&x, &y, sizeof x), "%s %llu: object %u is explained otherwise",
-                  w->name, (unsigned long long)w->seed, i);
+        CHECK_OBJECT(kit_same_bits(&x, &y, sizeof x), w, i, "is explained by %zu and %zu", x.count,
+                     y.count);
     }
 }
 
@@ -217,9 +216,11 @@ static bool make_hard(explained_world *w, family_world *made, const family *f, u
     return j != NULL;
 }
 
-static void check_both(const explained_world *w, const occ_view *plain, const occ_view *openmp,
-                       explained_counts *counts)
+static void cull_and_check(const explained_world *w, const occ_cull_desc *knobs, occ_view *plain,
+                           occ_view *openmp, explained_counts *counts)
 {
+    kit_cull(plain, w->scene, &w->camera, knobs);
+    kit_cull(openmp, w->scene, &w->camera, knobs);
     check_world(w, plain, counts);
     check_same(w, plain, openmp);
 }
@@ -237,16 +238,14 @@ START_TEST(what_a_hard_world_hides_is_hidden_by_those_named)
             build(&w, 4);
             for (int k = 0; k < KNOBS; k++) {
                 occ_cull_desc knobs = knobs_of(k);
-                kit_cull(plain, w.scene, &w.camera, &knobs);
-                kit_cull(openmp, w.scene, &w.camera, &knobs);
-                check_both(&w, plain, openmp, &counts[k]);
+                cull_and_check(&w, &knobs, plain, openmp, &counts[k]);
             }
             tear_down(&w);
         }
     for (int k = 0; k < KNOBS; k++) {
-        ck_assert_uint_gt(counts[k].by_one, 100);
-        ck_assert_uint_gt(counts[k].outside, 100);
-        if (k < 2) ck_assert_uint_gt(counts[k].by_several, 100);
+        ck_assert_uint_gt(counts[k].by_one, WORLD_SHARE(1000));
+        ck_assert_uint_gt(counts[k].outside, WORLD_SHARE(1000));
+        if (k < 2) ck_assert_uint_gt(counts[k].by_several, WORLD_SHARE(200));
         if (k >= 2) ck_assert_uint_eq(counts[k].by_several, 0);
     }
     occ_view_destroy(plain);
@@ -328,17 +327,15 @@ START_TEST(what_a_random_world_hides_is_hidden_by_those_named)
         occ_cull_desc knobs = {.method = OCC_METHOD_FUSED,
                                .grain = 1 + kit_below(&random, 16),
                                .max_splits = 1u << kit_below(&random, 8)};
-        kit_cull(plain, w.scene, &w.camera, &knobs);
-        kit_cull(openmp, w.scene, &w.camera, &knobs);
+        cull_and_check(&w, &knobs, plain, openmp, &counts);
         occ_view_stats stats;
         ck_assert_int_eq(occ_view_get_stats(plain, &stats), OCC_SUCCESS);
         fallen += stats.walk_hidden;
-        check_both(&w, plain, openmp, &counts);
         tear_down(&w);
     }
-    ck_assert_uint_gt(fallen, 100);
-    ck_assert_uint_gt(counts.by_one, 100);
-    ck_assert_uint_gt(counts.by_several, 100);
+    ck_assert_uint_gt(fallen, WORLD_SHARE(100));
+    ck_assert_uint_gt(counts.by_one, WORLD_SHARE(100));
+    ck_assert_uint_gt(counts.by_several, WORLD_SHARE(100));
     occ_view_destroy(plain);
     occ_view_destroy(openmp);
 }
@@ -347,14 +344,6 @@ END_TEST
 // --- named scenes --------------------------------------------------------------------------------
 
 static const char *const scene_names[] = {"city", "soup", "interior"};
-
-static void look(explained_world *w, const obs_frame *frame, double eye[3])
-{
-    w->camera = (occ_camera_desc){.depth = OCC_DEPTH_MINUS_ONE_TO_ONE, .eye = eye};
-    obs_view_projection(frame, w->camera.view_projection);
-    for (int j = 0; j < 3; j++)
-        eye[j] = (double)frame->eye[j];
-}
 
 START_TEST(what_a_scene_hides_is_hidden_by_those_named)
 {
@@ -375,15 +364,13 @@ START_TEST(what_a_scene_hides_is_hidden_by_those_named)
     for (uint32_t f = 0; f < file.frame_count; f += file.frame_count / WORLD_SHARE(20) + 1) {
         double eye[3];
         w.seed = f;
-        look(&w, &file.frames[f], eye);
+        w.camera = kit_obs_camera(&file.frames[f], eye);
         occ_cull_desc knobs = {
             .method = OCC_METHOD_FUSED, .preset = (occ_preset)(f % 3), .grain = 16};
-        kit_cull(plain, w.scene, &w.camera, &knobs);
-        kit_cull(openmp, w.scene, &w.camera, &knobs);
-        check_both(&w, plain, openmp, &counts);
+        cull_and_check(&w, &knobs, plain, openmp, &counts);
     }
-    ck_assert_uint_gt(counts.by_one, 1000);
-    ck_assert_uint_gt(counts.by_several, 20);
+    ck_assert_uint_gt(counts.by_one, WORLD_SHARE(1000));
+    ck_assert_uint_gt(counts.by_several, WORLD_SHARE(20));
     tear_down(&w);
     free(occluders);
     obs_free(&file);

@@ -143,8 +143,9 @@ typedef enum occ_fate {
 } occ_fate;
 
 /// Says what became of an object by the latest result, and which occluders hid it, nearest first:
-/// one, or several that do it together and of which none can be left out; none if the object was
-/// not hidden. Same rules for `occluders` as for the mask. `fate` and `count` may be NULL.
+/// one, or several that do it together and of which the proof can spare none; no occluder if the
+/// object was not hidden. Same rules for `occluders` as for the mask. `fate` and `count` may be
+/// NULL.
 ///
 /// Nothing is kept for this while culling and nothing is allocated: the reason is found anew when
 /// it is asked for, among the occluders that took part, in up to milliseconds. The occluders named

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
 # its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
-# settle, settle_absent (a build without GMP), cull, seed, error, error_hard, targets, and wrong, which
-# must fail.
+# settle, settle_absent (a build without GMP), cull, picture, seed, error, error_hard, targets, and
+# wrong, which must fail.
 set -u
 program=$1
 work=$(mktemp -d) || exit 1
@@ -222,6 +222,44 @@ cull_group()
     done
 }
 
+# Finds one of the 161 objects of the city whose fate in frame 30 is as said, from the last one on, and
+# leaves what was printed.
+find_one_that_is()
+{
+    for object in $(seq 160 -1 0); do
+        line="picture city.obs --size 800x400 --frame 30 --method $2 --explain $object"
+        "$program" $line --out found.png >out 2>err || break
+        grep -qE "^object=$object fate=$1\$" out && return
+    done
+    fail "no object has fate=$1"
+}
+
+picture_group()
+{
+    make_files
+    expect 0 out 'usage: occlude-bench picture' picture --help
+    expect 0 out 'frame=0 objects=161 visible=' picture city.obs --out first.png
+    [ "$(head -c 4 first.png | tail -c 3)" = PNG ] || fail "first.png is no picture"
+    expect 0 out ' hidden=' picture city.obs --size 800x400 --frame 30 --vis city.vis --out vis.png
+    expect 2 err 'expected single or fused after --method' picture city.obs --out new.png --method pairwise
+    expect 2 err '--vis goes with neither' picture city.obs --out new.png --vis city.vis --explain 1
+    expect 2 err '--vis goes with neither' picture city.obs --out new.png --vis city.vis --method single
+    expect 1 err 'no object 161 among 161' picture city.obs --out new.png --explain 161
+    expect 1 err 'no frame 60 among 60' picture city.obs --out new.png --frame 60
+    for number in '' x -1 1.5 4294967296; do
+        expect 2 err 'expected a number from 0 after --explain' picture city.obs --out new.png --explain "$number"
+    done
+
+    # One line more, and a picture of its own.
+    expect 0 out ' together=' picture city.obs --size 800x400 --frame 30 --method fused --out fused.png
+    find_one_that_is 'outside occluders=none' fused
+    find_one_that_is 'visible occluders=none' single
+    find_one_that_is 'hidden occluders=[0-9]+' single
+    find_one_that_is 'hidden occluders=[0-9]+' fused
+    [ "$(wc -l <out)" -eq 2 ] || fail "prints other than two lines"
+    cmp -s found.png fused.png && fail "the picture does not show what hides object $object"
+}
+
 error_group()
 {
     expect 0 out 'usage: occlude-bench error' error --help
@@ -320,6 +358,7 @@ seed_group()
 
 case $2 in
 cull) cull_group ;;
+picture) picture_group ;;
 seed) seed_group ;;
 targets) targets_group ;;
 error) error_group ;;

@@ -209,3 +209,19 @@ if(TARGET test_tolerance)
         BY "fmax(4.0 + occ_dot(unit[i], unit[k]), 0.0)")
     occ_caught_by(tolerance_of_points tolerance random "world [0-9]+: object [0-9]+ is hidden, but seen far from all outlines")
 endif()
+
+# --- an explanation that leaves out an occluder --------------------------------------------------
+set(in_explain IN src/explain.c COMPILE explain.c)
+set(past_those "[a-z_]+ [0-9]+: object [0-9]+ can be seen past the [0-9]+ that hide it")
+occ_plant(explains_less ${in_explain} REPLACE "occ_view_fits(view, occluders, capacity, found.count, count)"
+    BY "occ_view_fits(view, occluders, capacity, found.count -= found.count > 1, count)")
+occ_caught_by(explains_less explain judged "${past_those}")
+# One that shrinks too far, and one that takes an object's own occluders.
+occ_plant(explains_too_little ${in_explain} REPLACE "prove(frame, claim, fewer.place, fewer.count, &used)) continue;"
+    BY "prove(frame, claim, fewer.place, fewer.count, &used)) used = fewer;")
+occ_caught_by(explains_too_little explain judged "${past_those}")
+occ_plant(explains_by_own ${in_explain} REPLACE "if (shadow->owner == row) continue;" BY "(void)row;")
+occ_caught_by(explains_by_own explain judged "[a-z_]+ [0-9]+: object [0-9]+ is hidden by its own")
+# And one that does not look at the nodes with which an object fell.
+occ_plant(explains_no_nodes ${in_explain} REPLACE "for (uint32_t i = path->count; i-- > 0;)" BY "for (uint32_t i = 0; i-- > 0;)")
+occ_caught_by(explains_no_nodes explain judged "[a-z_]+ [0-9]+: object [0-9]+: OCC_ERROR_CORRUPT")
