@@ -32,6 +32,8 @@ for row in 1 2 3; do
     [ "$(cell $row 6)" = 0 ] || fail "false-hidden objects"
     awk -v ms="$(cell $row 2)" -v slowest="$(cell $row 4)" 'BEGIN { exit !(ms > 0 && slowest >= ms) }' || fail "no times"
 done
+awk -v a="$(cell 1 2)" -v b="$(cell 2 2)" -v ratio="$(cell 2 3)" \
+    'BEGIN { off = b / a - ratio; exit !(off < 0.01 && off > -0.01) }' || fail "another ratio"
 [ "$(cell 1 5)" = "$(cell 3 5)" ] || fail "one setting misses now this and now that"
 awk -v a="$(cell 1 5)" -v b="$(cell 2 5)" 'BEGIN { exit !(a < b) }' || fail "the frustum alone misses no more"
 
