@@ -5,6 +5,7 @@
 #include "scene_data.h"
 
 #include <check.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -128,7 +129,8 @@ static bool is_inner(const extent *e, const occ_box *box)
 // Moves a box as far as it can easily go and still keep its key. False: nowhere was found.
 static bool move_box(const occ_scene *scene, const extent *all, occ_box *box, kit_random *random)
 {
-    for (float reach = 8; reach > 1; reach /= 2) {
+    for (int power = 3; power > 0; power--) {
+        float reach = ldexpf(1, power);
         occ_box moved = *box;
         for (int j = 0; j < 3; j++)
             moved.center[j] += kit_between(random, -reach, reach);
