@@ -175,23 +175,23 @@ static void measure_view(occ_camera *camera)
     camera->view_area = sqrt(occ_dot(normal, normal));
 }
 
-// The rows of x, y and w. The eye is where they vanish; for an orthographic camera, where w does
-// not.
+// The rows of x, y and w, times one power of two, so that nothing overflows. The eye is where they
+// vanish; for an orthographic camera, where w does not.
 static void set_screen(occ_camera *camera, const row4 *row)
 {
     static const int used[3] = {0, 1, 3};
     occ_screen *screen = &camera->screen;
-    double most = 0.0;
+    double most = 0.0, w = camera->orthographic ? row[3][3] : 0.0;
     for (int r = 0; r < 3; r++) {
-        double sum = 0.0;
-        for (int j = 0; j < 3; j++) {
-            screen->row[r][j] = (float)row[used[r]][j];
-            sum += fabs(row[used[r]][j]);
-        }
-        most = fmax(most, sum);
+        const double *of = row[used[r]];
+        most = occ_larger(most, fabs(of[0]) + fabs(of[1]) + fabs(of[2]));
     }
-    screen->w = camera->orthographic ? (float)row[3][3] : 0.0f;
-    screen->least = (float)(most * 0x1p-8);
+    double scale = occ_unit_scale(occ_larger(most, fabs(w)));
+    for (int r = 0; r < 3; r++)
+        for (int j = 0; j < 3; j++)
+            screen->row[r][j] = (float)(row[used[r]][j] * scale);
+    screen->w = (float)(w * scale);
+    screen->least = (float)(most * scale * 0x1p-8);
 }
 
 static void set_constants(occ_camera *camera)
