@@ -9,8 +9,6 @@
 #include "fusion.h"
 #include "lanes.h"
 
-#define OCC_MOST_SHADOW_BLOCKS 256u // beyond, shadows hide alone
-
 typedef struct fusion_lanes {
     piece_lanes stack[OCC_FUSION_STACK + 1]; // cut_piece() needs room for one more
     uint32_t depth;

@@ -62,6 +62,14 @@ static inline void list_near(near_list *list, const occ_question *question,
     memset(list->planes, 0xff, list->rects.count * sizeof *list->planes);
 }
 
+static inline bool holds_corner(const occ_question *question, const occ_shadow_set *set, uint32_t i,
+                                uint32_t k)
+{
+    const occ_projection *seen = question->seen;
+    return holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
+           !is_own(question, set, i);
+}
+
 // Whether any of the list holds corner k.
 static inline bool ask_corner(const occ_question *question, const occ_shadow_set *set,
                               const near_list *list, uint32_t k)
@@ -72,9 +80,7 @@ static inline bool ask_corner(const occ_question *question, const occ_shadow_set
         uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
         for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
             uint32_t i = list->index[first + (uint32_t)__builtin_ctz(near)];
-            if (holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
-                !is_own(question, set, i))
-                return true;
+            if (holds_corner(question, set, i, k)) return true;
         }
     }
     return false;
@@ -90,9 +96,7 @@ static inline bool ask_first_corner(const occ_question *question, const occ_shad
         uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
         for (near = present(near, set->count - first); near; near &= near - 1u) {
             uint32_t i = first + (uint32_t)__builtin_ctz(near);
-            if (holds_point(&set->wide[i], seen->x[k], seen->y[k], seen->z[k], question->box->e) &&
-                !is_own(question, set, i))
-                return true;
+            if (holds_corner(question, set, i, k)) return true;
         }
     }
     return false;

@@ -71,15 +71,6 @@ static inline uint32_t bits_node(inode truth)
 #endif
 }
 
-static inline uint32_t bits_wide(iwide truth)
-{
-#if OCC_WIDTH == 16
-    return _mm512_movepi32_mask((__m512i)truth);
-#else
-    return bits_node(truth);
-#endif
-}
-
 // Bits of the lanes in which x > y.
 static inline uint32_t above_node(fnode x, fnode y)
 {

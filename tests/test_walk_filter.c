@@ -106,21 +106,6 @@ static void check_cut(grove *g, const occ_siblings *s, uint32_t c)
     if (!may_be_outside) ck_abort_msg("a node outside has objects inside of each plane");
 }
 
-// As the walk sees a node.
-static occ_relative_box bounds_of(const grove *g, const occ_node *node)
-{
-    const occ_eye *eye = &g->frame.camera.constants;
-    occ_relative_box box = {.e = 0.0f};
-    for (int j = 0; j < 3; j++) {
-        float min = OCC_RELATIVE(node->min[j], eye->high[j], eye->low[j]);
-        float max = OCC_RELATIVE(node->max[j], eye->high[j], eye->low[j]);
-        box.t[j] = OCC_MIDDLE(min, max);
-        box.a[4 * j] = OCC_HALF(min, max);
-    }
-    box.e = occ_box_slack(&box, eye->slack_floor);
-    return box;
-}
-
 // Nor what was said of it and a shadow, that hides it or that is left out.
 static void check_shadow(grove *g, const occ_node *node, const occ_shadow *shadow, bool hidden,
                          bool listed)
@@ -143,7 +128,7 @@ static void check_shadow(grove *g, const occ_node *node, const occ_shadow *shado
 static void ask_node(grove *g, const occ_lanes *lanes, const occ_node *node, const kit_set *one)
 {
     static const occ_screen nowhere;
-    occ_relative_box box = bounds_of(g, node);
+    occ_relative_box box = occ_frame_relative_node(&g->frame, node);
     occ_projection seen;
     uint32_t hint = 0, list[2], count = 0;
     occ_shadow_set set = kit_set_view(one);
