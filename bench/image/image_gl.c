@@ -55,21 +55,20 @@ static const char vertex_text[] = "#version 450 core\n"
                                   "    object_first = first;\n"
                                   "}\n";
 
+// In see-through draws `place` is not the triangle's own, but it is nobody else's.
 // Veils are combined by exclusive or; stirring the number first (in a way that can be undone, so
 // that none becomes 0 or another's) keeps small numbers from cancelling.
-static const char fragment_text[] =
-    "#version 450 core\n"
-    "layout(location = 1) uniform uint skipped;\n"
-    "flat in uint object_first;\n"
-    "layout(location = 0) out uint front;\n"
-    "layout(location = 1) out uint veil;\n"
-    "void main()\n"
-    "{\n"
-    "    uint place = object_first + uint(gl_PrimitiveID) + skipped;\n"
-    "    front = place + 1u;\n"
-    "    veil = front * 0x9e3779b1u;\n"
-    "    veil = (veil ^ veil >> 15) * 0x85ebca77u;\n"
-    "}\n";
+static const char fragment_text[] = "#version 450 core\n"
+                                    "flat in uint object_first;\n"
+                                    "layout(location = 0) out uint front;\n"
+                                    "layout(location = 1) out uint veil;\n"
+                                    "void main()\n"
+                                    "{\n"
+                                    "    uint place = object_first + uint(gl_PrimitiveID);\n"
+                                    "    front = place + 1u;\n"
+                                    "    veil = front * 0x9e3779b1u;\n"
+                                    "    veil = (veil ^ veil >> 15) * 0x85ebca77u;\n"
+                                    "}\n";
 
 static GLuint compile(GLenum stage, const char *text)
 {
@@ -223,7 +222,6 @@ static void set_layer(int layer)
         glColorMaski(i, (int)i == layer, GL_FALSE, GL_FALSE, GL_FALSE);
     glDepthMask(is_front);
     (is_front ? glDisable : glEnable)(GL_COLOR_LOGIC_OP);
-    glUniform1ui(1, 0);
 }
 
 static void draw_places(const image_gl *gl, uint32_t object, uint32_t first, uint32_t end)
@@ -256,7 +254,6 @@ static void draw_veils(const image_gl *gl, const uint32_t *objects, size_t count
     for (size_t i = 0; i < count; i++) {
         uint32_t first = p->see_through[objects[i]], end = p->first[objects[i] + 1];
         if (first == end) continue;
-        glUniform1ui(1, first - p->first[objects[i]]);
         draw_places(gl, objects[i], first, end);
         pass->draws++;
         pass->triangles += end - first;
@@ -275,8 +272,9 @@ bool image_gl_draw(image_gl *gl, const double clip[16], const uint32_t *objects,
     draw_fronts(gl, objects, count, pass);
     draw_veils(gl, objects, count, pass);
     glEndQuery(GL_TIME_ELAPSED);
-    glFlush();
     pass->cpu_ms = timing_now() - start;
+    glFinish();
+    pass->whole_ms = timing_now() - start;
     GLuint64 nanoseconds = 0;
     glGetQueryObjectui64v(gl->clock, GL_QUERY_RESULT, &nanoseconds);
     pass->gpu_ms = 1e-6 * (double)nanoseconds;

@@ -31,8 +31,9 @@ const char *image_gl_renderer(const image_gl *gl);
 /// What a picture took.
 typedef struct image_pass {
     uint32_t draws, triangles;
-    double cpu_ms; ///< To say what is to be drawn.
-    double gpu_ms; ///< To draw it, by OpenGL's own clock.
+    double cpu_ms;   ///< To say what is to be drawn.
+    double gpu_ms;   ///< To draw it, by OpenGL's own clock. Mesa's software says too little here.
+    double whole_ms; ///< From the first word until all is drawn.
 } image_pass;
 
 /// Draws these objects, in ascending order, one draw call each and one more where an object has
