@@ -116,8 +116,9 @@ static ray ray_of(const obs_frame *frame, const double forward[3], uint32_t pixe
     cross(f, sky, side);
     normalize(side);
     cross(side, f, up);
-    double x = (2 * (pixel % WIDTH + 0.5) / WIDTH - 1) / cotangent * WIDTH / HEIGHT;
-    double y = (2 * (pixel / WIDTH + 0.5) / HEIGHT - 1) / cotangent;
+    uint32_t column = pixel % WIDTH, row = pixel / WIDTH;
+    double x = (2 * (column + 0.5) / WIDTH - 1) / cotangent * WIDTH / HEIGHT;
+    double y = (2 * (row + 0.5) / HEIGHT - 1) / cotangent;
     ray r = {.one_sided = one_sided};
     for (int k = 0; k < 3; k++) {
         r.from[k] = (double)frame->eye[k];

@@ -97,6 +97,7 @@ START_TEST(scene_of_another_division_is_refused)
     ck_assert(image_parts_agree(&d, &scene, "scene", "model"));
     ck_assert(!image_parts_agree(&other, &scene, "scene", "model"));
     // One bit of one box.
+    ck_assert_ptr_nonnull(scene.objects);
     float *half = &scene.objects[scene.object_count - 1].axis[2][2];
     *half = nextafterf(*half, INFINITY);
     ck_assert(!image_parts_agree(&d, &scene, "scene", "model"));

@@ -5,6 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+// -0 is another box than 0.
+static bool same_bits(const occ_box *a, const occ_box *b)
+{
+    uint32_t bits[2][12];
+    _Static_assert(sizeof bits[0] == sizeof *a, "a box is 12 floats");
+    memcpy(bits[0], a, sizeof bits[0]);
+    memcpy(bits[1], b, sizeof bits[1]);
+    return memcmp(bits[0], bits[1], sizeof bits[0]) == 0;
+}
+
 bool image_parts_agree(const division *d, const obs_scene *scene, const char *scene_name,
                        const char *model_name)
 {
@@ -16,7 +26,7 @@ bool image_parts_agree(const division *d, const obs_scene *scene, const char *sc
         return false;
     }
     for (uint32_t i = 0; i < scene->object_count; i++) {
-        if (memcmp(&d->boxes[i], &scene->objects[i], sizeof(occ_box)) == 0) continue;
+        if (same_bits(&d->boxes[i], &scene->objects[i])) continue;
         fprintf(stderr, "occlude-bench: %s: object %u has another box than %s gives it: %s\n",
                 scene_name, i, model_name, advice);
         return false;
