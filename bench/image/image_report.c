@@ -12,7 +12,7 @@ typedef struct pass_sum {
 } pass_sum;
 
 typedef struct image_sum {
-    uint64_t differing, in_frustum, visible, triangles_in_frustum;
+    uint64_t differing, in_frustum, visible, seen, triangles_in_frustum;
     pass_sum full, culled;
     double cull_ms;
 } image_sum;
@@ -34,6 +34,7 @@ static image_sum add_up(const image_wish *wish, const image_result *result)
         sum.differing += row->differing;
         sum.in_frustum += row->in_frustum;
         sum.visible += row->visible;
+        sum.seen += row->seen;
         sum.triangles_in_frustum += row->triangles_in_frustum;
         sum.cull_ms += row->cull_ms;
         add_pass(&sum.full, &row->full);
@@ -57,6 +58,11 @@ static void print_table(const image_names *names, const image_wish *wish, const 
 {
     double frames = wish->frame_count;
     const char *whole = wish->against_frustum ? "frustum" : "all objects";
+    uint64_t unseen = sum->in_frustum - sum->seen, culled = sum->in_frustum - sum->visible;
+    printf("objects %.1f in the frustum, %.1f left by %s, %.1f seen in a pixel: of those not seen\n"
+           "        %.1f %% are culled\n",
+           (double)sum->in_frustum / frames, (double)sum->visible / frames, names->method,
+           (double)sum->seen / frames, unseen > 0 ? 100.0 * (double)culled / (double)unseen : 0.0);
     printf("%-24s %14s %14s %14s\n", "a frame, on the average", whole, names->method, "saved");
     print_line("draw calls", frames, (double)sum->full.draws, (double)sum->culled.draws);
     print_line("triangles", frames, (double)sum->full.triangles, (double)sum->culled.triangles);
@@ -82,10 +88,10 @@ uint64_t image_print(const image_names *names, const image_wish *wish, const ima
            wish->frame_count, sum.differing, sum.culled.triangles,
            sum.full.triangles - sum.culled.triangles);
     printf(" draws=%" PRIu64 " draws_saved=%" PRIu64 " objects=%u in_frustum=%" PRIu64
-           " visible=%" PRIu64 " objects_culled_pct=%.2f triangles_in_frustum=%" PRIu64
-           " triangles_culled_pct=%.2f",
+           " visible=%" PRIu64 " seen=%" PRIu64
+           " objects_culled_pct=%.2f triangles_in_frustum=%" PRIu64 " triangles_culled_pct=%.2f",
            sum.culled.draws, sum.full.draws - sum.culled.draws, parts->object_count, sum.in_frustum,
-           sum.visible, share_gone(sum.visible, sum.in_frustum), sum.triangles_in_frustum,
+           sum.visible, sum.seen, share_gone(sum.visible, sum.in_frustum), sum.triangles_in_frustum,
            share_gone(sum.culled.triangles, sum.triangles_in_frustum));
     printf(
         " cull_ms=%.4f cpu_ms=%.4f cpu_ms_saved=%.4f gpu_ms=%.4f gpu_ms_saved=%.4f whole_ms=%.4f "
@@ -106,15 +112,16 @@ void image_write_rows(FILE *stream, const image_names *names, const image_wish *
     fprintf(stream, "# method=%s\n# backend=%s\n# against=%s\n# size=%ux%u\n", names->method,
             names->backend, wish->against_frustum ? "frustum" : "all", wish->gl.width,
             wish->gl.height);
-    fputs("frame,in_frustum,visible,triangles_in_frustum,differing_pixels,draws_full,draws,"
+    fputs("frame,in_frustum,visible,seen,triangles_in_frustum,differing_pixels,draws_full,draws,"
           "triangles_full,triangles,cull_ms,cpu_full_ms,cpu_ms,gpu_full_ms,gpu_ms,whole_full_ms,"
           "whole_ms\n",
           stream);
     for (uint32_t i = 0; i < wish->frame_count; i++) {
         const image_row *row = &result->rows[i];
         const image_pass *full = &row->full, *culled = &row->culled;
-        fprintf(stream, "%u,%u,%u,%u,%" PRIu64 ",%u,%u,%u,%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n",
-                row->frame, row->in_frustum, row->visible, row->triangles_in_frustum,
+        fprintf(stream,
+                "%u,%u,%u,%u,%u,%" PRIu64 ",%u,%u,%u,%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n",
+                row->frame, row->in_frustum, row->visible, row->seen, row->triangles_in_frustum,
                 row->differing, full->draws, culled->draws, full->triangles, culled->triangles,
                 row->cull_ms, full->cpu_ms, culled->cpu_ms, full->gpu_ms, culled->gpu_ms,
                 full->whole_ms, culled->whole_ms + row->cull_ms);

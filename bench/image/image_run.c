@@ -30,7 +30,7 @@ typedef struct image_job {
     image_gl *gl;
     image_pixels full, culled;
     object_list all, in_frustum, visible;
-    bool *is_drawn;
+    bool *is_drawn, *is_seen;
     uint32_t *culprits;
 } image_job;
 
@@ -163,6 +163,24 @@ static bool draw(const image_job *job, const double clip[16], const object_list 
            image_gl_read(job->gl, pixels->front, pixels->veil);
 }
 
+// Behind what can be seen through an object may be seen as well, so these are taken for seen.
+static void count_seen(image_job *job, image_row *row)
+{
+    const image_parts *p = job->parts;
+    size_t pixels = (size_t)job->full.width * job->full.height;
+    for (uint32_t i = 0; i < p->object_count; i++)
+        job->is_seen[i] = p->see_through[i] < p->first[i + 1];
+    uint32_t latest = 0; // pixels beside each other are mostly of one triangle
+    for (size_t i = 0; i < pixels; i++) {
+        if (job->full.front[i] == latest) continue;
+        latest = job->full.front[i];
+        if (latest > 0) job->is_seen[image_parts_object(p, latest - 1)] = true;
+    }
+    row->seen = 0;
+    for (size_t i = 0; i < job->in_frustum.count; i++)
+        row->seen += job->is_seen[job->in_frustum.at[i]];
+}
+
 static bool run_frame(image_job *job, image_row *row)
 {
     const obs_frame *frame = &job->loaded.file->frames[row->frame];
@@ -172,8 +190,11 @@ static bool run_frame(image_job *job, image_row *row)
         fprintf(stderr, "occlude-bench: frame %u: its camera has no eye\n", row->frame);
         return false;
     }
-    return cull_both(job, frame, row) && draw(job, clip, whole, &job->full, &row->full) &&
-           draw(job, clip, &job->visible, &job->culled, &row->culled) && compare(job, row);
+    if (!cull_both(job, frame, row) || !draw(job, clip, whole, &job->full, &row->full) ||
+        !draw(job, clip, &job->visible, &job->culled, &row->culled))
+        return false;
+    count_seen(job, row);
+    return compare(job, row);
 }
 
 static bool run_frames(image_job *job, image_row *rows)
@@ -224,9 +245,10 @@ static bool allocate(image_job *job)
         good = good && lists[i]->at;
     }
     job->is_drawn = calloc(objects, sizeof *job->is_drawn);
+    job->is_seen = calloc(objects, sizeof *job->is_seen);
     job->culprits = calloc((size_t)job->loaded.file->occluder_count + 1, sizeof *job->culprits);
     uint32_t width = job->wish->gl.width, height = job->wish->gl.height;
-    good = good && job->is_drawn && job->culprits &&
+    good = good && job->is_drawn && job->is_seen && job->culprits &&
            image_pixels_create(&job->full, width, height) &&
            image_pixels_create(&job->culled, width, height);
     if (!good) return out_of_memory();
@@ -248,6 +270,7 @@ static void close_job(image_job *job)
     free(job->in_frustum.at);
     free(job->visible.at);
     free(job->is_drawn);
+    free(job->is_seen);
     free(job->culprits);
 }
 

@@ -20,9 +20,10 @@ typedef struct image_wish {
     const char *pictures; ///< What the names of pictures that differ begin with.
 } image_wish;
 
-/// A frame's figures. "In the frustum" is what method frustum leaves.
+/// A frame's figures. "In the frustum" is what method frustum leaves. Seen are those of them that
+/// show in a pixel of the whole picture, and those of which light passes some.
 typedef struct image_row {
-    uint32_t frame, in_frustum, visible;
+    uint32_t frame, in_frustum, visible, seen;
     uint32_t triangles_in_frustum;
     image_pass full, culled;
     double cull_ms;
