@@ -14,9 +14,11 @@ typedef struct image_names {
     uint32_t occluders;
 } image_names;
 
-/// Prints a table, and a last line for programs. Returns the number of pixels that differ.
-uint64_t image_print(const image_names *names, const image_wish *wish, const image_parts *parts,
-                     const image_result *result);
+/// Prints a table of a frame, its counts means and its times medians over all of them, and a last
+/// line for programs. `*differing` is the number of pixels that differ. Returns false when memory
+/// runs out.
+bool image_print(const image_names *names, const image_wish *wish, const image_parts *parts,
+                 const image_result *result, uint64_t *differing);
 
 /// Writes a row for each frame.
 void image_write_rows(FILE *stream, const image_names *names, const image_wish *wish,
