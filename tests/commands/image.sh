@@ -162,6 +162,21 @@ object=$(sed -n "s/.*: frame $frame: object \([0-9]*\) shows.*/\1/p" err | head 
 status 0 picture planted.obs --frame "$frame" --method single --explain "$object" --out explained.png
 grep -q "^object=$object fate=hidden occluders=$occluder\$" out || fail "picture explains object $object otherwise"
 
+# Crates of glass hide nothing, show as veils, and are missed like any other.
+status 0 convert hall.obj --out glass.obs --up y --triangles 12 --frames 9 --see-through 'crates*'
+refused 1 'as they were given to convert' glass.obs --model hall.obj --triangles 12 --up z --see-through 'crates*'
+# shellcheck disable=SC2086
+status 0 image glass.obs --model hall.obj $small --see-through 'crates*' --method single
+grep -qE '^model .* [1-9][0-9]* of them see-through' out || fail "no glass"
+[ "$(value visible)" -lt "$(value in_frustum)" ] || fail "the wall hides no glass"
+"$plant" glass.obs planted_glass.obs -0.25 2.5 0 3 >planted
+read -r occluder owner <planted
+# shellcheck disable=SC2086
+status 3 image planted_glass.obs --model hall.obj $small --see-through 'crates*' --method single
+grep -qE ": object [0-9]+ shows in .* \(see-through\): hidden by occluders $occluder \(of object $owner\)\$" err ||
+    fail "names no glass"
+[ "$(grep -c 'no object is missing' err)" -eq 0 ] || fail "a pixel of glass is not accounted for"
+
 # What is not used does no harm, and what is named first is drawn by default.
 # shellcheck disable=SC2086
 status 0 image planted.obs --model hall.obj $small --method frustum
