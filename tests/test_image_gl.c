@@ -117,12 +117,13 @@ static ray ray_of(const obs_frame *frame, const double forward[3], uint32_t pixe
     normalize(side);
     cross(side, f, up);
     uint32_t column = pixel % WIDTH, row = pixel / WIDTH;
-    double x = (2 * (column + 0.5) / WIDTH - 1) / cotangent * WIDTH / HEIGHT;
-    double y = (2 * (row + 0.5) / HEIGHT - 1) / cotangent;
+    double x = 2 * (column + 0.5) / WIDTH - 1, y = 2 * (row + 0.5) / HEIGHT - 1;
+    bool is_parallel = frame->proj[11] == 0.0f;
     ray r = {.one_sided = one_sided};
     for (int k = 0; k < 3; k++) {
-        r.from[k] = (double)frame->eye[k];
-        r.along[k] = f[k] + x * side[k] + y * up[k];
+        double aside = x / (double)frame->proj[0] * side[k] + y / (double)frame->proj[5] * up[k];
+        r.from[k] = (double)frame->eye[k] + (is_parallel ? aside : 0);
+        r.along[k] = f[k] + (is_parallel ? 0 : aside);
     }
     return r;
 }
@@ -183,13 +184,13 @@ static sight look(const ray *r, size_t object_count)
 
 // --- tests ---------------------------------------------------------------------------------------
 
-static void check_frame(const double eye[3], const double forward[3], bool one_sided, size_t count)
+static void check_picture(const obs_frame *frame, const double forward[3], bool one_sided,
+                          size_t count)
 {
-    obs_frame frame = obs_look(eye, forward, cotangent, (double)WIDTH / HEIGHT, near_z, far_z);
     uint32_t certain = 0, covered = 0, veiled = 0;
-    draw(&frame, count, &picture);
+    draw(frame, count, &picture);
     for (uint32_t i = 0; i < PIXELS; i++) {
-        ray r = ray_of(&frame, forward, i, one_sided);
+        ray r = ray_of(frame, forward, i, one_sided);
         sight s = look(&r, count);
         if (!s.certain) continue;
         ck_assert_msg(picture.front[i] == s.front, "pixel %u,%u: %u, not %u", i % WIDTH, i / WIDTH,
@@ -205,6 +206,12 @@ static void check_frame(const double eye[3], const double forward[3], bool one_s
     ck_assert_uint_gt(veiled, PIXELS / 80);
 }
 
+static void check_frame(const double eye[3], const double forward[3], bool one_sided, size_t count)
+{
+    obs_frame frame = obs_look(eye, forward, cotangent, (double)WIDTH / HEIGHT, near_z, far_z);
+    check_picture(&frame, forward, one_sided, count);
+}
+
 // Near the origin and so far from it that floats are a quarter apart, from both sides and from one.
 START_TEST(every_pixel_shows_the_triangle_that_a_ray_meets_first)
 {
@@ -216,6 +223,23 @@ START_TEST(every_pixel_shows_the_triangle_that_a_ray_meets_first)
     check_frame(eye, forward, one_sided, parts.object_count);
     check_frame(middle, askew, one_sided, parts.object_count);
     check_frame(eye, forward, one_sided, parts.object_count * 2 / 3);
+    close_stage();
+}
+END_TEST
+
+// Lines of sight that do not meet.
+START_TEST(orthographic_picture_is_what_parallel_rays_meet)
+{
+    const double eye[3] = {3.3, -4.7, 60.1}, forward[3] = {0.1, 0.13, -1};
+    obs_frame frame = obs_look(eye, forward, 1, 1, near_z, far_z);
+    open_stage(0, false);
+    frame.proj[0] = (float)(HEIGHT / (30.0 * WIDTH));
+    frame.proj[5] = 1.0f / 30;
+    frame.proj[10] = (float)(-2 / (far_z - near_z));
+    frame.proj[11] = 0;
+    frame.proj[14] = (float)(-(far_z + near_z) / (far_z - near_z));
+    frame.proj[15] = 1;
+    check_picture(&frame, forward, false, parts.object_count);
     close_stage();
 }
 END_TEST
@@ -267,6 +291,7 @@ int main(void)
     Suite *suite = suite_create("image_gl");
     TCase *drawn = tcase_create("drawn");
     tcase_add_loop_test(drawn, every_pixel_shows_the_triangle_that_a_ray_meets_first, 0, 4);
+    tcase_add_test(drawn, orthographic_picture_is_what_parallel_rays_meet);
     tcase_add_test(drawn, object_left_out_is_missed_where_it_showed);
     suite_add_tcase(suite, drawn);
     return test_run_suite(suite);

@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// 64 million pixels take two gigabytes, OpenGL's own included.
+enum { IMAGE_MOST_SIDE = 8192 };
+
 typedef struct image_arguments {
     const char *scene, *model, *frames, *size, *against, *csv, *pictures;
     const char *method, *backend, *preset;
@@ -69,8 +72,8 @@ static const char *complete_arguments(image_arguments *arguments)
     const options_extent least = {1, 1};
     options_extent extent;
     if (!arguments->model) return "expected --model MODEL";
-    if (!options_size(arguments->size, least, 16384, &extent))
-        return "expected --size as 1920x1080, 16384x16384 at most";
+    if (!options_size(arguments->size, least, IMAGE_MOST_SIDE, &extent))
+        return "expected --size as 1920x1080, 8192x8192 at most";
     arguments->wish.gl.width = extent.width;
     arguments->wish.gl.height = extent.height;
     if (strcmp(arguments->against, "all") != 0 && strcmp(arguments->against, "frustum") != 0)

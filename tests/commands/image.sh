@@ -79,6 +79,7 @@ grep -q 'usage: occlude-bench image' out || fail "no help"
 refused 2 'expected a scene file' --model hall.obj
 refused 2 'expected --model MODEL' hall.obs
 refused 2 'expected --size as 1920x1080' hall.obs --model hall.obj --size 0x10
+refused 2 'expected --size as 1920x1080' hall.obs --model hall.obj --size 8193x10
 refused 2 'expected frustum, pairwise, single or fused' hall.obs --model hall.obj --method thesis
 refused 2 'expected plain, openmp or opencl' hall.obs --model hall.obj --backend gpu
 refused 2 'expected all or frustum after --against' hall.obs --model hall.obj --against none
