@@ -10,6 +10,8 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
     frame->wide = OCC_ARRAY(occ_wide_shadow);
     frame->sources = OCC_ARRAY(occ_occluder);
     frame->rects = OCC_ARRAY(occ_rect_block);
+    frame->queue.entries = OCC_ARRAY(occ_walk_entry);
+    frame->closing.entries = OCC_ARRAY(occ_walk_entry);
     frame->ranges = OCC_ARRAY(occ_range);
     frame->candidates = OCC_ARRAY(uint32_t);
     frame->verdicts = OCC_ARRAY(occ_verdict);
@@ -18,8 +20,8 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
 void occ_frame_free(occ_frame *frame)
 {
     occ_array *arrays[] = {&frame->shadows,    &frame->wide,    &frame->sources, &frame->rects,
-                           &frame->heap,       &frame->open,    &frame->closing, &frame->ranges,
-                           &frame->candidates, &frame->verdicts};
+                           &frame->queue.entries, &frame->open, &frame->closing.entries,
+                           &frame->ranges, &frame->candidates, &frame->verdicts};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (arrays[i]->element) occ_array_free(frame->hooks, arrays[i]);
 }

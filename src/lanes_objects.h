@@ -16,6 +16,16 @@ typedef struct object_lanes {
     fwide e;
 } object_lanes;
 
+// Their error bounds.
+static inline void set_bounds(object_lanes *o, const occ_eye *eye)
+{
+    fwide size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
+    size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
+    size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
+    size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
+    o->e = OCC_BOUND(size, eye->slack_floor);
+}
+
 static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_t row,
                                 const occ_eye *eye)
 {
@@ -25,11 +35,7 @@ static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_
     }
     for (uint32_t k = 0; k < 9; k++)
         o->a[k] = load_wide(occ_boxes_column(boxes, 3 + k) + row);
-    fwide size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
-    size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
-    size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
-    size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
-    o->e = OCC_BOUND(size, eye->slack_floor);
+    set_bounds(o, eye);
 }
 
 static inline fwide reach_of_objects(const object_lanes *o, const float n[4])
