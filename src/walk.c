@@ -5,6 +5,8 @@
 // nearest first. The shadows that touch a node are all that is asked about what is in it.
 #include "frame.h"
 
+#include <string.h>
+
 // Objects of a node that stay open.
 typedef struct open_range {
     uint32_t first, count;
@@ -82,6 +84,8 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
     return OCC_SUCCESS;
 }
 
+#define MOST_SORTED 64u // candidates of a range that are sorted
+
 // How much of the screen an occluder takes up.
 static float shown_area(const occ_shadow_set *set, uint32_t i)
 {
@@ -94,20 +98,28 @@ static float shown_area(const occ_shadow_set *set, uint32_t i)
     return area;
 }
 
+// Puts those that take up much of the screen first, in steps of a factor of four.
 static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t count)
 {
-    float area[64];
-    if (count > 64) return;
+    uint32_t sorted[MOST_SORTED];
+    float area[MOST_SORTED], most = 0.0f;
+    if (count > MOST_SORTED) return;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t s = list[i], k = i;
-        float a = shown_area(set, s);
-        for (; k > 0 && area[k - 1] < a; k--) {
-            area[k] = area[k - 1];
-            list[k] = list[k - 1];
-        }
-        area[k] = a;
-        list[k] = s;
+        area[i] = shown_area(set, list[i]);
+        most = area[i] > most ? area[i] : most;
     }
+    uint32_t placed = 0;
+    for (uint32_t step = 0; step < 4 && placed < count; step++) {
+        float least = step < 3 ? most * 0.25f : -1.0f;
+        for (uint32_t i = 0; i < count; i++) {
+            sorted[placed] = list[i];
+            bool here = area[i] >= least;
+            placed += here;
+            area[i] = here ? -2.0f : area[i];
+        }
+        most = least;
+    }
+    memcpy(list, sorted, count * sizeof *list);
 }
 
 // Lists the candidates of a range: the occluders that are near enough and touch it.
