@@ -34,7 +34,7 @@ typedef struct occ_frame {
 
     // Where tests run while the walk goes on. What they read is in `job`, and moves only while they
     // pause.
-    occ_stream *stream;
+    occ_team *team;
     occ_shadow_set set;
     occ_test_job job;
 } occ_frame;

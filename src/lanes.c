@@ -18,4 +18,4 @@
 
 extern const occ_lanes OCC_LANES_TABLE;
 const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), project, hide, gather,
-                                   select_occluders, cut, test};
+                                   select_occluders,         cut,     test};

@@ -33,12 +33,12 @@ typedef struct occ_walk_entry {
 #define OCC_QUEUE_LISTS (2u * OCC_QUEUE_BUCKETS)
 
 typedef struct occ_queue {
-    occ_array entries; // of occ_walk_entry, in any order
-    uint32_t unused;   // a list of those that were taken
-    uint32_t count;    // how many wait
-    uint32_t lowest;   // no word before this one has a bit
-    int32_t base;      // of the first bucket
-    float origin;      // keys count from here
+    occ_array entries;              // of occ_walk_entry, in any order
+    uint32_t unused;                // a list of those that were taken
+    uint32_t count;                 // how many wait
+    uint32_t lowest;                // no word before this one has a bit
+    int32_t base;                   // of the first bucket
+    float origin;                   // keys count from here
     uint32_t head[OCC_QUEUE_LISTS]; // where the bit is set
     uint64_t used[OCC_QUEUE_LISTS / 64];
 } occ_queue;

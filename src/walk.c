@@ -80,7 +80,7 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
         uint32_t left = open->count - i < OCC_RANGE_OBJECTS ? open->count - i : OCC_RANGE_OBJECTS;
         *range = (occ_range){open->first + i, left, begin, listed, open->planes, is_fused(frame)};
     }
-    occ_stream_offer(frame->stream, frame->ranges.count);
+    occ_team_offer(frame->team, frame->ranges.count);
     return OCC_SUCCESS;
 }
 
