@@ -10,13 +10,9 @@
 #include "lanes.h"
 
 typedef struct fusion_lanes {
-    piece_lanes stack[OCC_FUSION_STACK + 1]; // cut_piece() needs room for one more
+    piece_lanes stack[OCC_FUSION_STACK];
     uint32_t depth;
-    const occ_wide_shadow *candidate[OCC_FUSION_CANDIDATES];
-    uint32_t planes[OCC_FUSION_CANDIDATES];
-    uint32_t candidates;
-    uint32_t faces;
-    bool held;
+    bool faces; // as in occ_fusion
 } fusion_lanes;
 
 static inline occ_cutter last_of(const occ_wide_shadow *shadow)
@@ -95,51 +91,52 @@ static inline contact meet_upright(const occ_relative_box *box, const occ_wide_s
     return met;
 }
 
-static inline void add_candidate(fusion_lanes *fusion, const occ_wide_shadow *shadow,
-                                 const contact *met)
-{
-    fusion->held |= met->held;
-    if (fusion->candidates == OCC_FUSION_CANDIDATES) return;
-    fusion->faces |= met->cutting >> OCC_FACE_LANE;
-    fusion->candidate[fusion->candidates] = shadow;
-    fusion->planes[fusion->candidates++] = met->cutting;
-}
+// The middle of a piece, and its bound: as occ_piece_middle().
+typedef struct middle_point {
+    occ_vertex at;
+    float e;
+} middle_point;
 
-// As occ_fusion_consider().
-static inline bool consider(fusion_lanes *fusion, const occ_relative_box *box,
-                            const occ_wide_shadow *shadow)
-{
-    contact met = meet(box, shadow);
-    if (met.apart) return false;
-    if (met.cutting) add_candidate(fusion, shadow, &met);
-    return !met.cutting;
-}
-
-// As occ_piece_middle().
-static inline occ_vertex middle_of(const piece_lanes *piece)
+static inline middle_point middle_of(const piece_lanes *piece)
 {
     uint32_t b = piece->count / OCC_MIDDLE_CORNERS, c = 2 * piece->count / OCC_MIDDLE_CORNERS;
-    return (occ_vertex){
-        (piece->x[0] + piece->x[b]) + piece->x[c], (piece->y[0] + piece->y[b]) + piece->y[c],
-        (piece->z[0] + piece->z[b]) + piece->z[c], (piece->w[0] + piece->w[b]) + piece->w[c],
-        (piece->e[0] + piece->e[b]) + piece->e[c]};
+    return (middle_point){
+        {(piece->x[0] + piece->x[b]) + piece->x[c], (piece->y[0] + piece->y[b]) + piece->y[c],
+         (piece->z[0] + piece->z[b]) + piece->z[c], (piece->w[0] + piece->w[b]) + piece->w[c]},
+        (float)OCC_MIDDLE_CORNERS * piece->e};
 }
 
 // As occ_shadow_holds().
-static inline bool holds(const occ_wide_shadow *shadow, uint32_t planes, const occ_vertex *middle)
+static inline bool holds(const occ_wide_shadow *shadow, const middle_point *middle)
 {
+    const occ_vertex *v = &middle->at;
     uint32_t held = 0;
     for (uint32_t l = 0; l < OCC_PLANE_LANES; l += OCC_NODE_WIDTH) {
-        fnode dw = load_node(shadow->plane[3] + l) * middle->w;
-        fnode at =
-            OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
-                         load_node(shadow->plane[2] + l), dw, middle->x, middle->y, middle->z);
+        fnode dw = load_node(shadow->plane[3] + l) * v->w;
+        fnode at = OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
+                                load_node(shadow->plane[2] + l), dw, v->x, v->y, v->z);
         held |= above_node(at, OCC_MIDDLE_LEAST(middle->e, dw)) << l;
     }
-    if (planes & ~held & 0xffu) return false;
-    if (!(planes >> OCC_PLANE_LANES)) return true;
+    if (shadow->planes & ~held & 0xffu) return false;
+    if (!(shadow->planes >> OCC_PLANE_LANES)) return true;
     occ_cutter n = last_of(shadow);
-    return occ_vertex_at(middle, &n) > OCC_MIDDLE_LEAST(middle->e, n.d * middle->w);
+    return occ_vertex_at(v, &n) > OCC_MIDDLE_LEAST(middle->e, n.d * v->w);
+}
+
+// As occ_box_is_behind().
+static inline bool is_behind(const occ_relative_box *box, const occ_wide_shadow *shadow)
+{
+    const uint32_t l = OCC_FACE_LANE / OCC_NODE_WIDTH * OCC_NODE_WIDTH;
+    const float *t = box->t, *a = box->a;
+    fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
+    fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
+    fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
+    fnode r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
+    r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
+    r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
+    uint32_t inside = above_node(s - r, splat_node(box->e)) << l;
+    if (shadow->planes & ~inside & (3u << OCC_FACE_LANE)) return false;
+    return !(shadow->planes >> OCC_PLANE_LANES) || occ_box_in_shadow(box, shadow->last, 1);
 }
 
 // As occ_shadow_holds_point().
@@ -155,25 +152,51 @@ static inline bool holds_point(const occ_wide_shadow *shadow, float x, float y, 
     return OCC_PLANE_AT(n.x, n.y, n.z, n.d, x, y, z) > e;
 }
 
-// As occ_fusion_find().
-static inline uint32_t find(const fusion_lanes *fusion, bool by_faces)
+// The planes that not all of a piece is inside of.
+static inline uint32_t planes_that_cut(const piece_lanes *piece, const occ_wide_shadow *shadow)
 {
-    occ_vertex middle = middle_of(&fusion->stack[fusion->depth - 1]);
-    uint32_t i = 0;
-    for (; i < fusion->candidates; i++) {
-        if (!by_faces && fusion->planes[i] >> OCC_FACE_LANE) continue;
-        if (holds(fusion->candidate[i], fusion->planes[i], &middle)) break;
+    uint32_t inside = 0;
+    for (uint32_t l = 0; l < OCC_PLANE_LANES; l += OCC_NODE_WIDTH) {
+        fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
+        fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
+        fnode level = OCC_CUT_LEVEL(piece->e, d * piece->most_w);
+        uint32_t in = lanes_below(OCC_NODE_WIDTH);
+        for (uint32_t i = 0; i < piece->count; i++) {
+            fnode at =
+                OCC_PLANE_AT(x, y, z, d * piece->w[i], piece->x[i], piece->y[i], piece->z[i]);
+            in &= above_node(at, level);
+        }
+        inside |= in << l;
     }
-    return i;
+    if (shadow->planes >> OCC_PLANE_LANES) {
+        float at[OCC_PIECE_VERTICES];
+        occ_cutter n = last_of(shadow);
+        float level = OCC_CUT_LEVEL(piece->e, n.d * piece->most_w);
+        bool in = vertices_inside(piece, &n, level, at) == lanes_below(piece->count);
+        inside |= (uint32_t)in << OCC_PLANE_LANES;
+    }
+    return shadow->planes & ~inside;
+}
+
+// As occ_fusion_cut(), where there is a piece of eight vertices: true if it was halved.
+static inline bool halve_on_stack(fusion_lanes *fusion, const piece_lanes *piece,
+                                  const occ_cutter *n)
+{
+    float at[OCC_PIECE_VERTICES], level = OCC_CUT_LEVEL(piece->e, n->d * piece->most_w);
+    if (vertices_inside(piece, n, level, at) == lanes_below(piece->count)) return false;
+    halve_piece(&fusion->stack[fusion->depth++], piece, 0);
+    halve_piece(&fusion->stack[fusion->depth++], piece, OCC_PIECE_VERTICES / 2);
+    return true;
 }
 
 // As occ_fusion_subtract(). The piece stays where it is while parts of it are put below.
-static inline bool subtract(fusion_lanes *fusion, const occ_wide_shadow *shadow, uint32_t planes)
+static inline bool subtract(fusion_lanes *fusion, const occ_wide_shadow *shadow)
 {
     piece_lanes piece = fusion->stack[--fusion->depth];
-    for (; planes; planes &= planes - 1u) {
+    for (uint32_t planes = planes_that_cut(&piece, shadow); planes; planes &= planes - 1u) {
         occ_cutter n = cutter_of(shadow, (uint32_t)__builtin_ctz(planes));
-        if (fusion->depth == OCC_FUSION_STACK) return false;
+        if (fusion->depth + 2u > OCC_FUSION_STACK) return false;
+        if (piece.count == OCC_PIECE_VERTICES && halve_on_stack(fusion, &piece, &n)) return true;
         int cut = cut_piece(&piece, &n, &fusion->stack[fusion->depth]);
         if (cut == OCC_CUT_OUTSIDE || cut == OCC_CUT_FAILED) return false;
         if (cut == OCC_CUT_TWO) fusion->depth++;
@@ -199,20 +222,6 @@ static inline void clip(fusion_lanes *fusion, const occ_eye *eye, uint32_t mask)
     }
 }
 
-// As occ_fusion_covers().
-static inline bool covers(fusion_lanes *fusion, const occ_eye *eye, uint32_t mask, bool by_faces)
-{
-    clip(fusion, eye, mask);
-    for (uint32_t split = 0; fusion->depth; split++) {
-        uint32_t i = find(fusion, by_faces);
-        if (i == fusion->candidates || split == eye->splits ||
-            !subtract(fusion, fusion->candidate[i], fusion->planes[i])) {
-            return false;
-        }
-    }
-    return true;
-}
-
 // Puts the outline, or the faces, on the stack.
 static inline bool see_outline(fusion_lanes *fusion, const occ_relative_box *box,
                                const occ_eye *eye, bool by_faces)
@@ -223,22 +232,6 @@ static inline bool see_outline(fusion_lanes *fusion, const occ_relative_box *box
     for (uint32_t i = 0; i < outline.polygons; i++)
         if (!outline_piece(&fusion->stack[i], &outline, i, box)) return false;
     return true;
-}
-
-static inline void start_fusion(fusion_lanes *fusion)
-{
-    fusion->candidates = fusion->faces = 0;
-    fusion->held = false;
-}
-
-// As the rest of occ_box_fused(), once no corner shows.
-static inline bool fuse_candidates(fusion_lanes *fusion, const occ_relative_box *box,
-                                   const occ_eye *eye, uint32_t mask)
-{
-    if (!see_outline(fusion, box, eye, false)) return false;
-    if (covers(fusion, eye, mask, false)) return true;
-    if (!fusion->faces) return false;
-    return see_outline(fusion, box, eye, true) && covers(fusion, eye, mask, true);
 }
 
 #endif
