@@ -25,20 +25,10 @@ OCC_FN occ_u32 occ_shadow_silhouettes(OCC_GLOBAL const occ_shadow *shadow)
     return shadow->planes == 5u ? 4u : 6u;
 }
 
-// (A structure that is returned by value would do; oclgrind does not know what LLVM makes of it.)
-OCC_FN void occ_cutter_set(occ_cutter *n, OCC_PLANES_OF plane, float turn)
-{
-    n->x = turn * plane[0];
-    n->y = turn * plane[1];
-    n->z = turn * plane[2];
-    n->d = turn * plane[3];
-}
-
 // The sum of three corners of a piece: three times a point inside.
 #define OCC_MIDDLE_CORNERS 3u
 
-// Sets *e to the bound of the sum.
-OCC_FN void occ_piece_middle(const occ_piece *piece, occ_vertex *middle, float *e)
+OCC_FN void occ_piece_middle(const occ_piece *piece, occ_vertex *middle)
 {
     const occ_vertex *a = &piece->v[0], *b = &piece->v[piece->count / OCC_MIDDLE_CORNERS];
     const occ_vertex *c = &piece->v[2 * piece->count / OCC_MIDDLE_CORNERS];
@@ -46,17 +36,16 @@ OCC_FN void occ_piece_middle(const occ_piece *piece, occ_vertex *middle, float *
     middle->y = (a->y + b->y) + c->y;
     middle->z = (a->z + b->z) + c->z;
     middle->w = (a->w + b->w) + c->w;
-    *e = (float)OCC_MIDDLE_CORNERS * piece->e;
 }
 
-// Whether a shadow holds the middle with room to spare, so that cutting gets somewhere.
-OCC_FN int occ_shadow_holds(OCC_GLOBAL const occ_shadow *shadow, const occ_vertex *middle, float e)
+// Whether a shadow holds the middle of a piece with room to spare, so that cutting gets somewhere.
+OCC_FN int occ_shadow_holds(OCC_GLOBAL const occ_shadow *shadow, const occ_vertex *middle,
+                            occ_u32 cuts, float object)
 {
     for (occ_u32 p = 0; p < shadow->planes; p++) {
         occ_cutter n;
-        occ_cutter_set(&n, shadow->plane[p], 1.0f);
-        float least = OCC_MIDDLE_LEAST(e, n.d * middle->w);
-        if (!(occ_vertex_at(middle, &n) > least)) return 0;
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
+        if (!(occ_vertex_at(middle, &n) > OCC_MIDDLE_LEAST(cuts))) return 0;
     }
     return 1;
 }
@@ -84,13 +73,12 @@ OCC_FN occ_u32 occ_fusion_find(occ_fusion *fusion, const occ_relative_box *box,
                                OCC_GLOBAL const occ_shadow *shadows, OCC_GLOBAL const occ_u32 *list,
                                occ_u32 count, occ_u32 row, int by_faces)
 {
+    const occ_piece *top = &fusion->stack[fusion->depth - 1];
     occ_vertex middle;
-    float e;
-    occ_piece_middle(&fusion->stack[fusion->depth - 1], &middle, &e);
-    fusion->faces = 0;
+    occ_piece_middle(top, &middle);
     for (occ_u32 i = 0; i < count; i++) {
         OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
-        if (shadow->owner != row && occ_shadow_holds(shadow, &middle, e) &&
+        if (shadow->owner != row && occ_shadow_holds(shadow, &middle, top->cuts, box->e) &&
             occ_fusion_accepts(fusion, box, shadow, by_faces)) {
             return i;
         }
@@ -117,19 +105,20 @@ OCC_FN int occ_fusion_cut(occ_fusion *fusion, occ_piece *piece, const occ_cutter
 // Takes a shadow from the piece on top of the stack, which it replaces by what is left. Planes that
 // all of the piece is inside of do not cut it, nor what others leave of it. 0 if that cannot be
 // done.
-OCC_FN int occ_fusion_subtract(occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadow)
+OCC_FN int occ_fusion_subtract(occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadow,
+                               float object)
 {
     occ_piece piece = fusion->stack[--fusion->depth];
     occ_u32 cutting = 0;
     occ_cutter n;
     for (occ_u32 p = 0; p < shadow->planes; p++) {
-        occ_cutter_set(&n, shadow->plane[p], 1.0f);
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
         cutting |= (occ_u32)!occ_piece_is_inside(&piece, &n) << p;
     }
     for (occ_u32 p = 0; p < shadow->planes; p++) {
         int failed = 0;
         if (!(cutting >> p & 1u)) continue;
-        occ_cutter_set(&n, shadow->plane[p], 1.0f);
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
         if (fusion->depth + 2u > OCC_FUSION_STACK) return 0;
         if (!occ_fusion_cut(fusion, &piece, &n, &failed)) return !failed;
     }
@@ -137,12 +126,13 @@ OCC_FN int occ_fusion_subtract(occ_fusion *fusion, OCC_GLOBAL const occ_shadow *
 }
 
 // Takes away what is outside of the frustum's side planes that `mask` names.
-OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask)
+OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
+                            float object)
 {
     for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
         if (!(mask >> p & 1u)) continue;
         occ_cutter beyond;
-        occ_cutter_set(&beyond, eye->plane[p], -1.0f);
+        occ_cutter_set(&beyond, eye->plane[p], -1.0f, object);
         occ_u32 kept = 0;
         for (occ_u32 i = 0; i < fusion->depth; i++) {
             occ_piece lost, rest;
@@ -162,10 +152,11 @@ OCC_FN int occ_fusion_covers(occ_fusion *fusion, const occ_relative_box *box,
                              occ_u32 count, occ_u32 row, int by_faces)
 {
     fusion->faces = 0;
-    occ_fusion_clip(fusion, eye, mask);
+    occ_fusion_clip(fusion, eye, mask, box->e);
     for (occ_u32 split = 0; fusion->depth; split++) {
         occ_u32 i = occ_fusion_find(fusion, box, shadows, list, count, row, by_faces);
-        if (i == count || split == eye->splits || !occ_fusion_subtract(fusion, &shadows[list[i]])) {
+        if (i == count || split == eye->splits ||
+            !occ_fusion_subtract(fusion, &shadows[list[i]], box->e)) {
             return 0;
         }
     }

@@ -78,16 +78,17 @@ static bool take_first(box_proof *proof)
 {
     const box_claim *claim = proof->claim;
     occ_fusion *fusion = &proof->fusion;
+    const occ_piece *top = &fusion->stack[fusion->depth - 1];
+    float object = claim->box.e;
     occ_vertex middle;
-    float e;
-    occ_piece_middle(&fusion->stack[fusion->depth - 1], &middle, &e);
+    occ_piece_middle(top, &middle);
     for (uint32_t i = 0; i < proof->count; i++) {
         uint32_t place = proof->list ? proof->list[i] : i;
         const occ_shadow *shadow = shadow_at(proof->frame, place);
         if (shadow->owner - claim->first < claim->rows) continue;
-        if (!occ_shadow_holds(shadow, &middle, e)) continue;
+        if (!occ_shadow_holds(shadow, &middle, top->cuts, object)) continue;
         if (!occ_fusion_accepts(fusion, &claim->box, shadow, proof->by_faces)) continue;
-        return note(&proof->used, place) && occ_fusion_subtract(fusion, shadow);
+        return note(&proof->used, place) && occ_fusion_subtract(fusion, shadow, object);
     }
     return false;
 }
@@ -105,7 +106,7 @@ static bool covers(box_proof *proof, bool by_faces)
     if (!occ_outline_set(&outline, box, eye, by_faces)) return false;
     fusion->depth = occ_outline_pieces(&outline, box, fusion->stack);
     if (!fusion->depth) return false;
-    occ_fusion_clip(fusion, eye, proof->claim->frustum);
+    occ_fusion_clip(fusion, eye, proof->claim->frustum, box->e);
     for (uint32_t split = 0; fusion->depth; split++)
         if (split == eye->splits || !take_first(proof)) return false;
     return true;

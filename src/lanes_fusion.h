@@ -15,16 +15,18 @@ typedef struct fusion_lanes {
     bool faces; // as in occ_fusion
 } fusion_lanes;
 
-static inline occ_cutter last_of(const occ_wide_shadow *shadow)
+// As occ_cutter_set() makes them of the planes.
+static inline occ_cutter last_of(const occ_wide_shadow *shadow, float object)
 {
-    return (occ_cutter){shadow->last[0], shadow->last[1], shadow->last[2], shadow->last[3]};
+    const float *n = shadow->last;
+    return (occ_cutter){n[0], n[1], n[2], OCC_CUTTER_OFFSET(n[3], object)};
 }
 
-static inline occ_cutter cutter_of(const occ_wide_shadow *shadow, uint32_t p)
+static inline occ_cutter cutter_of(const occ_wide_shadow *shadow, uint32_t p, float object)
 {
-    if (p == OCC_PLANE_LANES) return last_of(shadow);
+    if (p == OCC_PLANE_LANES) return last_of(shadow, object);
     return (occ_cutter){shadow->plane[0][p], shadow->plane[1][p], shadow->plane[2][p],
-                        shadow->plane[3][p]};
+                        OCC_CUTTER_OFFSET(shadow->plane[3][p], object)};
 }
 
 // How a box and a shadow lie.
@@ -48,10 +50,10 @@ static inline void meet_planes(contact *met, uint32_t l, uint32_t outside, uint3
 static inline void meet_last_plane(contact *met, const occ_wide_shadow *shadow,
                                    const occ_relative_box *box)
 {
-    occ_cutter n = last_of(shadow);
-    if (n.d == OCC_NO_PLANE_AT) return;
-    float s = OCC_PLANE_AT(n.x, n.y, n.z, n.d, box->t[0], box->t[1], box->t[2]);
-    float r = occ_box_reach(box, n.x, n.y, n.z);
+    const float *n = shadow->last;
+    if (n[3] == OCC_NO_PLANE_AT) return;
+    float s = OCC_PLANE_AT(n[0], n[1], n[2], n[3], box->t[0], box->t[1], box->t[2]);
+    float r = occ_box_reach(box, n[0], n[1], n[2]);
     met->apart = OCC_IS_OUTSIDE(s, r, box->e);
     met->cutting |= (uint32_t)!OCC_IS_INSIDE(s, r, box->e) << OCC_PLANE_LANES;
     met->held &= s > box->e;
@@ -91,36 +93,33 @@ static inline contact meet_upright(const occ_relative_box *box, const occ_wide_s
     return met;
 }
 
-// The middle of a piece, and its bound: as occ_piece_middle().
-typedef struct middle_point {
-    occ_vertex at;
-    float e;
-} middle_point;
-
-static inline middle_point middle_of(const piece_lanes *piece)
+// As occ_piece_middle().
+static inline occ_vertex middle_of(const piece_lanes *piece)
 {
     uint32_t b = piece->count / OCC_MIDDLE_CORNERS, c = 2 * piece->count / OCC_MIDDLE_CORNERS;
-    return (middle_point){
-        {(piece->x[0] + piece->x[b]) + piece->x[c], (piece->y[0] + piece->y[b]) + piece->y[c],
-         (piece->z[0] + piece->z[b]) + piece->z[c], (piece->w[0] + piece->w[b]) + piece->w[c]},
-        (float)OCC_MIDDLE_CORNERS * piece->e};
+    return (occ_vertex){
+        (piece->x[0] + piece->x[b]) + piece->x[c], (piece->y[0] + piece->y[b]) + piece->y[c],
+        (piece->z[0] + piece->z[b]) + piece->z[c], (piece->w[0] + piece->w[b]) + piece->w[c]};
 }
 
 // As occ_shadow_holds().
-static inline bool holds(const occ_wide_shadow *shadow, const middle_point *middle)
+static inline bool holds(const occ_wide_shadow *shadow, const occ_vertex *middle, uint32_t cuts,
+                         float object)
 {
-    const occ_vertex *v = &middle->at;
+    float least = OCC_MIDDLE_LEAST(cuts);
     uint32_t held = 0;
     for (uint32_t l = 0; l < OCC_PLANE_LANES; l += OCC_NODE_WIDTH) {
-        fnode dw = load_node(shadow->plane[3] + l) * v->w;
-        fnode at = OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
-                                load_node(shadow->plane[2] + l), dw, v->x, v->y, v->z);
-        held |= above_node(at, OCC_MIDDLE_LEAST(middle->e, dw)) << l;
+        fnode d = load_node(shadow->plane[3] + l);
+        fnode dw = OCC_CUTTER_OFFSET(d, object) * middle->w;
+        fnode at =
+            OCC_PLANE_AT(load_node(shadow->plane[0] + l), load_node(shadow->plane[1] + l),
+                         load_node(shadow->plane[2] + l), dw, middle->x, middle->y, middle->z);
+        held |= above_node(at, splat_node(least)) << l;
     }
     if (shadow->planes & ~held & 0xffu) return false;
     if (!(shadow->planes >> OCC_PLANE_LANES)) return true;
-    occ_cutter n = last_of(shadow);
-    return occ_vertex_at(v, &n) > OCC_MIDDLE_LEAST(middle->e, n.d * v->w);
+    occ_cutter n = last_of(shadow, object);
+    return occ_vertex_at(middle, &n) > least;
 }
 
 // As occ_box_is_behind().
@@ -148,32 +147,31 @@ static inline bool holds_point(const occ_wide_shadow *shadow, float x, float y, 
                          load_node(shadow->plane[2] + l), load_node(shadow->plane[3] + l), x, y, z);
         if (above_node(at, splat_node(e)) != (1u << OCC_NODE_WIDTH) - 1u) return false;
     }
-    occ_cutter n = last_of(shadow);
-    return OCC_PLANE_AT(n.x, n.y, n.z, n.d, x, y, z) > e;
+    const float *n = shadow->last;
+    return OCC_PLANE_AT(n[0], n[1], n[2], n[3], x, y, z) > e;
 }
 
 // The planes that not all of a piece is inside of.
-static inline uint32_t planes_that_cut(const piece_lanes *piece, const occ_wide_shadow *shadow)
+static inline uint32_t planes_that_cut(const piece_lanes *piece, const occ_wide_shadow *shadow,
+                                       float object)
 {
+    float least = OCC_VERTEX_LEAST(piece->cuts);
     uint32_t inside = 0;
     for (uint32_t l = 0; l < OCC_PLANE_LANES; l += OCC_NODE_WIDTH) {
         fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
         fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
-        fnode level = OCC_CUT_LEVEL(piece->e, d * piece->most_w);
         uint32_t in = lanes_below(OCC_NODE_WIDTH);
+        d = OCC_CUTTER_OFFSET(d, object);
         for (uint32_t i = 0; i < piece->count; i++) {
-            fnode at =
-                OCC_PLANE_AT(x, y, z, d * piece->w[i], piece->x[i], piece->y[i], piece->z[i]);
-            in &= above_node(at, level);
+            fnode dw = d * piece->w[i];
+            fnode at = OCC_PLANE_AT(x, y, z, dw, piece->x[i], piece->y[i], piece->z[i]);
+            in &= above_node(at, splat_node(least));
         }
         inside |= in << l;
     }
     if (shadow->planes >> OCC_PLANE_LANES) {
-        float at[OCC_PIECE_VERTICES];
-        occ_cutter n = last_of(shadow);
-        float level = OCC_CUT_LEVEL(piece->e, n.d * piece->most_w);
-        bool in = vertices_inside(piece, &n, level, at) == lanes_below(piece->count);
-        inside |= (uint32_t)in << OCC_PLANE_LANES;
+        occ_cutter n = last_of(shadow, object);
+        inside |= (uint32_t)is_inside(piece, &n) << OCC_PLANE_LANES;
     }
     return shadow->planes & ~inside;
 }
@@ -182,19 +180,19 @@ static inline uint32_t planes_that_cut(const piece_lanes *piece, const occ_wide_
 static inline bool halve_on_stack(fusion_lanes *fusion, const piece_lanes *piece,
                                   const occ_cutter *n)
 {
-    float at[OCC_PIECE_VERTICES], level = OCC_CUT_LEVEL(piece->e, n->d * piece->most_w);
-    if (vertices_inside(piece, n, level, at) == lanes_below(piece->count)) return false;
+    if (is_inside(piece, n)) return false;
     halve_piece(&fusion->stack[fusion->depth++], piece, 0);
     halve_piece(&fusion->stack[fusion->depth++], piece, OCC_PIECE_VERTICES / 2);
     return true;
 }
 
 // As occ_fusion_subtract(). The piece stays where it is while parts of it are put below.
-static inline bool subtract(fusion_lanes *fusion, const occ_wide_shadow *shadow)
+static inline bool subtract(fusion_lanes *fusion, const occ_wide_shadow *shadow, float object)
 {
     piece_lanes piece = fusion->stack[--fusion->depth];
-    for (uint32_t planes = planes_that_cut(&piece, shadow); planes; planes &= planes - 1u) {
-        occ_cutter n = cutter_of(shadow, (uint32_t)__builtin_ctz(planes));
+    uint32_t planes = planes_that_cut(&piece, shadow, object);
+    for (; planes; planes &= planes - 1u) {
+        occ_cutter n = cutter_of(shadow, (uint32_t)__builtin_ctz(planes), object);
         if (fusion->depth + 2u > OCC_FUSION_STACK) return false;
         if (piece.count == OCC_PIECE_VERTICES && halve_on_stack(fusion, &piece, &n)) return true;
         int cut = cut_piece(&piece, &n, &fusion->stack[fusion->depth]);
@@ -205,12 +203,12 @@ static inline bool subtract(fusion_lanes *fusion, const occ_wide_shadow *shadow)
 }
 
 // As occ_fusion_clip().
-static inline void clip(fusion_lanes *fusion, const occ_eye *eye, uint32_t mask)
+static inline void clip(fusion_lanes *fusion, const occ_eye *eye, uint32_t mask, float object)
 {
     for (uint32_t p = 0; p < OCC_SIDE_PLANES; p++) {
         if (!(mask >> p & 1u)) continue;
-        const float *plane = eye->plane[p];
-        occ_cutter beyond = {-plane[0], -plane[1], -plane[2], -plane[3]};
+        occ_cutter beyond;
+        occ_cutter_set(&beyond, eye->plane[p], -1.0f, object);
         uint32_t kept = 0;
         for (uint32_t i = 0; i < fusion->depth; i++) {
             piece_lanes lost = fusion->stack[i], rest;

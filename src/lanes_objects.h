@@ -142,11 +142,12 @@ typedef struct object_fusion {
 } object_fusion;
 
 // Whether candidate c may be taken from a piece, as in occ_fusion_find().
-static inline bool serves(object_fusion *object, uint32_t c, const middle_point *middle)
+static inline bool serves(object_fusion *object, uint32_t c, const occ_vertex *middle,
+                          uint32_t cuts)
 {
     const occ_candidates *candidates = object->common->candidates;
     const occ_wide_shadow *shadow = &candidates->set->wide[candidates->list[c]];
-    if (!holds(shadow, middle) || shadow->owner == object->row) return false;
+    if (shadow->owner == object->row || !holds(shadow, middle, cuts, object->box->e)) return false;
     if (object->by_faces || is_behind(object->box, shadow)) return true;
     object->left.faces = true;
     return false;
@@ -158,18 +159,18 @@ static inline uint32_t find(object_fusion *object)
     const range_fusion *common = object->common;
     const rect_list *list = &common->list;
     fusion_lanes *left = &object->left;
-    middle_point middle = middle_of(&left->stack[left->depth - 1]);
+    const piece_lanes *top = &left->stack[left->depth - 1];
+    occ_vertex middle = middle_of(top);
     float u, v;
-    project_vertex(common->screen, &middle.at, &u, &v);
-    left->faces = false;
+    project_vertex(common->screen, &middle, &u, &v);
     for (uint32_t i = 0; i < list->count; i += NEAR_BITS) {
         for (uint64_t near = near_in_list(list, i, u, v); near; near &= near - 1u) {
             uint32_t c = i + (uint32_t)__builtin_ctzll(near);
-            if (serves(object, c, &middle)) return c;
+            if (serves(object, c, &middle, top->cuts)) return c;
         }
     }
     uint32_t c = list->count;
-    while (c < common->candidates->count && !serves(object, c, &middle))
+    while (c < common->candidates->count && !serves(object, c, &middle, top->cuts))
         c++;
     return c;
 }
@@ -183,11 +184,11 @@ static bool covers(object_fusion *object, bool by_faces)
     object->by_faces = by_faces;
     left->faces = false;
     if (!see_outline(left, object->box, common->eye, by_faces)) return false;
-    clip(left, common->eye, common->range->frustum);
+    clip(left, common->eye, common->range->frustum, object->box->e);
     for (uint32_t split = 0; left->depth; split++) {
         uint32_t c = find(object);
         if (c == candidates->count || split == common->eye->splits ||
-            !subtract(left, &candidates->set->wide[candidates->list[c]])) {
+            !subtract(left, &candidates->set->wide[candidates->list[c]], object->box->e)) {
             return false;
         }
     }

@@ -14,7 +14,6 @@
 typedef struct piece_lanes {
     float x[OCC_PIECE_VERTICES], y[OCC_PIECE_VERTICES], z[OCC_PIECE_VERTICES];
     float w[OCC_PIECE_VERTICES];
-    float e, most_w; // as e and w in occ_piece
     uint32_t count, cuts;
 } piece_lanes;
 
@@ -43,6 +42,14 @@ static inline uint32_t vertices_inside(const piece_lanes *piece, const occ_cutte
     return in & lanes_below(piece->count);
 }
 
+// As occ_piece_is_inside().
+static inline bool is_inside(const piece_lanes *piece, const occ_cutter *n)
+{
+    float at[OCC_PIECE_VERTICES];
+    uint32_t in = vertices_inside(piece, n, OCC_VERTEX_LEAST(piece->cuts), at);
+    return in == lanes_below(piece->count);
+}
+
 // Where a polygon goes into a plane's inner side, from `enter` to `first`, and out, from `leave` to
 // `last`.
 typedef struct crossings {
@@ -64,20 +71,9 @@ static inline bool find_crossings(crossings *at, uint32_t in, uint32_t count)
     return !(entries & (entries - 1u));
 }
 
-// What brings the largest of x, y, z to [1/2, 1). Where it can.
-static inline inode scale_of(fnode x, fnode y, fnode z, fnode *scale)
-{
-    fnode most = OCC_FABS(x), next = OCC_FABS(y), last = OCC_FABS(z);
-    most = select_node(next > most, next, most);
-    most = select_node(last > most, last, most);
-    inode exponent = (inode)most >> 23;
-    *scale = (fnode)((253 - exponent) << 23);
-    return (exponent >= 24) & (exponent <= 230);
-}
-
 // What a cut makes: lanes 0 and 2 are where the polygon goes out, lane 1 where it goes in.
 typedef struct fresh_lanes {
-    fnode x, y, z, w, e;
+    fnode x, y, z, w;
 } fresh_lanes;
 
 // Three of eight floats.
@@ -90,26 +86,25 @@ static inline fnode pick(const float *from, uint32_t a, uint32_t b)
 #endif
 }
 
+// As occ_reciprocal().
+static inline fnode reciprocal(fnode x)
+{
+    fnode r = (fnode)(OCC_RECIPROCAL_GUESS - (inode)x);
+    return r * (2.0f - x * r);
+}
+
 // As occ_vertex_between(), for both crossings.
 static inline bool make_fresh(fresh_lanes *fresh, const piece_lanes *piece, const float *at,
                               const crossings *cross, float level, const occ_cutter *n)
 {
     uint32_t a0 = cross->leave, a1 = cross->first, b0 = cross->last, b1 = cross->enter;
-    fnode f = level - pick(at, b0, b1), g = pick(at, a0, a1) - level;
-    fnode x = f * pick(piece->x, a0, a1) + g * pick(piece->x, b0, b1);
-    fnode y = f * pick(piece->y, a0, a1) + g * pick(piece->y, b0, b1);
-    fnode z = f * pick(piece->z, a0, a1) + g * pick(piece->z, b0, b1);
-    fnode w = f * pick(piece->w, a0, a1) + g * pick(piece->w, b0, b1), scale;
-    inode good = scale_of(x, y, z, &scale);
-    fresh->x = x * scale;
-    fresh->y = y * scale;
-    fresh->z = z * scale;
-    fresh->w = w * scale;
-    fresh->e = OCC_CUT_BOUND(f, g, piece->e) * scale;
-    fnode dw = n->d * fresh->w;
-    fnode value = OCC_PLANE_AT(n->x, n->y, n->z, dw, fresh->x, fresh->y, fresh->z);
-    good &= (fresh->e < OCC_VERTEX_WORST) & (value > OCC_VERTEX_LEAST(fresh->e, dw));
-    return (bits_node(good) & 3u) == 3u;
+    fnode f = level - pick(at, b0, b1), g = pick(at, a0, a1) - level, r = reciprocal(f + g);
+    fresh->x = r * (f * pick(piece->x, a0, a1) + g * pick(piece->x, b0, b1));
+    fresh->y = r * (f * pick(piece->y, a0, a1) + g * pick(piece->y, b0, b1));
+    fresh->z = r * (f * pick(piece->z, a0, a1) + g * pick(piece->z, b0, b1));
+    fresh->w = r * (f * pick(piece->w, a0, a1) + g * pick(piece->w, b0, b1));
+    fnode value = OCC_PLANE_AT(n->x, n->y, n->z, n->d * fresh->w, fresh->x, fresh->y, fresh->z);
+    return (above_node(value, splat_node(OCC_VERTEX_LEAST(piece->cuts + 1))) & 3u) == 3u;
 }
 
 // Vertices from `first` on, `n` of them, round the polygon, and then two of the fresh ones, from
@@ -144,15 +139,10 @@ static inline void take(piece_lanes *part, const piece_lanes *piece, uint32_t fi
     part->count = n + 2;
 }
 
-static inline float larger(float x, float y)
-{
-    return x > y ? x : y;
-}
-
 // As occ_piece_cut(): `piece` becomes what is inside.
 static inline int cut_piece(piece_lanes *piece, const occ_cutter *n, piece_lanes *outside)
 {
-    float at[OCC_PIECE_VERTICES], level = OCC_CUT_LEVEL(piece->e, n->d * piece->most_w);
+    float at[OCC_PIECE_VERTICES], level = OCC_CUT_LEVEL(piece->cuts);
     uint32_t count = piece->count, in = vertices_inside(piece, n, level, at);
     crossings cross;
     fresh_lanes fresh;
@@ -162,11 +152,7 @@ static inline int cut_piece(piece_lanes *piece, const occ_cutter *n, piece_lanes
         !find_crossings(&cross, in, count) || !make_fresh(&fresh, piece, at, &cross, level, n)) {
         return OCC_CUT_FAILED;
     }
-    piece->e = larger(piece->e, larger(fresh.e[0], fresh.e[1]));
-    piece->most_w = larger(piece->most_w, larger(fresh.w[0], fresh.w[1]));
     piece->cuts++;
-    outside->e = piece->e;
-    outside->most_w = piece->most_w;
     outside->cuts = piece->cuts;
     take(outside, piece, cross.last, count - cross.inside, &fresh, 1);
     take(piece, piece, cross.first, cross.inside, &fresh, 0);
@@ -201,6 +187,17 @@ static inline void corners_of(const occ_relative_box *box, inode codes, fnode *x
     *z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
 }
 
+// What brings the largest of x, y, z to [1/2, 1). Where it can.
+static inline inode scale_of(fnode x, fnode y, fnode z, fnode *scale)
+{
+    fnode most = OCC_FABS(x), next = OCC_FABS(y), last = OCC_FABS(z);
+    most = select_node(next > most, next, most);
+    most = select_node(last > most, last, most);
+    inode exponent = (inode)most >> 23;
+    *scale = (fnode)((253 - exponent) << 23);
+    return (exponent >= 24) & (exponent <= 230);
+}
+
 // The corners of polygon i of the outline, as occ_outline_pieces() has them.
 static inline bool outline_piece(piece_lanes *piece, const occ_outline *outline, uint32_t i,
                                  const occ_relative_box *box)
@@ -212,8 +209,7 @@ static inline bool outline_piece(piece_lanes *piece, const occ_outline *outline,
         fnode x, y, z, scale;
         memcpy(&codes, corner + l, sizeof codes);
         corners_of(box, codes, &x, &y, &z);
-        inode clear = scale_of(x, y, z, &scale);
-        good |= bits_node(clear & (scale * box->e < OCC_VERTEX_WORST)) << l;
+        good |= bits_node(scale_of(x, y, z, &scale)) << l;
         store_node(piece->x + l, x * scale);
         store_node(piece->y + l, y * scale);
         store_node(piece->z + l, z * scale);
@@ -221,10 +217,6 @@ static inline bool outline_piece(piece_lanes *piece, const occ_outline *outline,
     }
     piece->count = outline->corners;
     piece->cuts = 0;
-    piece->most_w = 0.0f;
-    for (uint32_t k = 0; k < outline->corners; k++)
-        piece->most_w = larger(piece->w[k], piece->most_w);
-    piece->e = piece->most_w * box->e;
     return !(lanes_below(outline->corners) & ~good);
 }
 

@@ -111,18 +111,19 @@ static inline bool corner_shows(const occ_question *question, const occ_shadow_s
 }
 
 // The first entry that may be taken from a piece, or their number: as occ_fusion_find().
-static inline uint32_t find_near(const near_list *list, const middle_point *middle,
+static inline uint32_t find_near(const near_list *list, const piece_lanes *piece,
                                  const occ_question *question, const occ_shadow_set *set,
                                  const occ_screen *screen)
 {
+    occ_vertex middle = middle_of(piece);
     float u, v;
-    project_vertex(screen, &middle->at, &u, &v);
+    project_vertex(screen, &middle, &u, &v);
     for (uint32_t first = 0; first < list->rects.count; first += NEAR_BITS) {
         uint64_t near = near_in_list(&list->rects, first, u, v);
         for (; near; near &= near - 1u) {
             uint32_t n = first + (uint32_t)__builtin_ctzll(near), i = list->index[n];
-            if (holds(&set->wide[i], middle) && !is_own(question, set, i) &&
-                is_behind(question->box, &set->wide[i]))
+            if (holds(&set->wide[i], &middle, piece->cuts, question->box->e) &&
+                !is_own(question, set, i) && is_behind(question->box, &set->wide[i]))
                 return n;
         }
     }
@@ -136,12 +137,12 @@ static inline bool covers_near(const near_list *list, const occ_question *questi
 {
     fusion_lanes fusion;
     if (!see_outline(&fusion, question->box, eye, false)) return false;
-    clip(&fusion, eye, question->frustum);
+    clip(&fusion, eye, question->frustum, question->box->e);
     for (uint32_t split = 0; fusion.depth; split++) {
-        middle_point middle = middle_of(&fusion.stack[fusion.depth - 1]);
-        uint32_t n = find_near(list, &middle, question, set, screen);
+        const piece_lanes *top = &fusion.stack[fusion.depth - 1];
+        uint32_t n = find_near(list, top, question, set, screen);
         if (n == list->rects.count || split == eye->splits ||
-            !subtract(&fusion, &set->wide[list->index[n]])) {
+            !subtract(&fusion, &set->wide[list->index[n]], question->box->e)) {
             return false;
         }
     }

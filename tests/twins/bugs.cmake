@@ -143,9 +143,8 @@ endif()
 # --- what several hide together ------------------------------------------------------------------
 if(TARGET test_fusion)
     set(fused_too_much "world [0-9]+: object [0-9]+ is hidden, but it can be seen")
-    occ_plant(fusion_without_bounds IN kernels/piece.h
-        REPLACE "((e) + OCC_VERTEX_SLACK + OCC_FABS(dw) * OCC_OFFSET_SLACK)\n#define OCC_CUT_LEVEL(e, dw)    (2.0f *"
-        BY "(-(e) - OCC_VERTEX_SLACK - OCC_FABS(dw) * OCC_OFFSET_SLACK)\n#define OCC_CUT_LEVEL(e, dw)    (0.0f *" COMPILE backend_plain.c)
+    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "((d) - ((object)*OCC_OBJECT_SLACK + " BY "((d) + 32.0f * ((object)*OCC_OBJECT_SLACK + "
+        COMPILE backend_plain.c)
     occ_caught_by(fusion_without_bounds fusion random "${fused_too_much}")
     occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (by_faces || occ_box_is_behind(box, shadow)) return 1;"
         BY "(void)box;\n    (void)shadow;\n    if (!by_faces) return 1;" COMPILE backend_plain.c)
@@ -173,13 +172,13 @@ if(TARGET test_lanes_fusion)
     occ_plant(vectors_third_face_cuts_nothing IN src/lanes_fusion.h REPLACE "return shadow->planes & ~inside;"
         BY "return shadow->planes & ~inside & 0xffu;" ${vectors})
     occ_caught_by(vectors_third_face_cuts_nothing lanes_fusion worlds "${fused_otherwise}")
-    occ_plant(vectors_third_face_parts_nothing IN src/lanes_fusion.h REPLACE "if (n.d == OCC_NO_PLANE_AT) return;"
-        BY "if (n.d <= OCC_NO_PLANE_AT) return;" ${vectors})
+    occ_plant(vectors_third_face_parts_nothing IN src/lanes_fusion.h REPLACE "if (n[3] == OCC_NO_PLANE_AT) return;"
+        BY "if (n[3] <= OCC_NO_PLANE_AT) return;" ${vectors})
     occ_caught_by(vectors_third_face_parts_nothing lanes_walk worlds "${answers_differ}")
     occ_plant(vectors_third_face_holds_all IN src/lanes_fusion.h REPLACE "if (!(shadow->planes >> OCC_PLANE_LANES)) return true;"
         BY "if (shadow->planes >> OCC_PLANE_LANES < 2u) return true;" ${vectors})
     occ_caught_by(vectors_third_face_holds_all lanes variants "plain in round [0-9]+")
-    occ_plant(vectors_third_face_for_all IN src/lanes_fusion.h REPLACE "n.d, x, y, z) > e;" BY "n.d, x, y, z) > e && n.d < OCC_NO_PLANE_AT;" ${vectors})
+    occ_plant(vectors_third_face_for_all IN src/lanes_fusion.h REPLACE "n[3], x, y, z) > e;" BY "n[3], x, y, z) > e && n[3] < OCC_NO_PLANE_AT;" ${vectors})
     occ_caught_by(vectors_third_face_for_all lanes_fusion worlds "${fused_otherwise}")
     occ_plant(vectors_lose_what_the_picture_cuts IN src/lanes_fusion.h REPLACE "if (cut == OCC_CUT_INSIDE) continue;"
         BY "if (cut == OCC_CUT_INSIDE || cut == OCC_CUT_TWO) continue;" ${vectors})
