@@ -22,8 +22,9 @@
 typedef struct occ_wide_shadow {
     float plane[4][OCC_PLANE_LANES];
     float last[4];
-    uint32_t owner; // as in occ_shadow
-    uint32_t pad[11];
+    uint32_t owner;  // as in occ_shadow
+    uint32_t planes; // bit p: lane p has a plane; bit OCC_PLANE_LANES speaks of `last`
+    uint32_t pad[10];
 } occ_wide_shadow;
 
 void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow);

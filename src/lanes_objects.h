@@ -116,11 +116,10 @@ static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c,
 static inline bool corner_is_held(const rect_list *list, const occ_candidates *candidates,
                                   uint32_t row, const occ_projection *seen, uint32_t k, float e)
 {
-    for (uint32_t i = 0; i < list->count; i += OCC_SHADOW_LANES) {
-        rect_lanes rects = rects_of_list(list, i);
-        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
-        for (near = present(near, list->count - i); near; near &= near - 1u) {
-            uint32_t c = i + (uint32_t)__builtin_ctz(near);
+    for (uint32_t i = 0; i < list->count; i += NEAR_BITS) {
+        for (uint64_t near = near_in_list(list, i, seen->u[k], seen->v[k]); near;
+             near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctzll(near);
             if (candidate_holds(candidates, c, row, seen, k, e)) return true;
         }
     }
@@ -139,28 +138,88 @@ typedef struct range_fusion {
     uint32_t hint; // the corner that showed last
 } range_fusion;
 
-// As occ_box_fused(), where a candidate holds the center or the center is not in the picture.
+// An object in question, and what is left of it.
+typedef struct object_fusion {
+    const range_fusion *common;
+    const occ_relative_box *box;
+    uint32_t row;
+    bool by_faces;
+    fusion_lanes left;
+} object_fusion;
+
+// Whether candidate c may be taken from a piece, as in occ_fusion_find().
+static inline bool serves(object_fusion *object, uint32_t c, const occ_vertex *middle,
+                          uint32_t cuts)
+{
+    const occ_candidates *candidates = object->common->candidates;
+    const occ_wide_shadow *shadow = &candidates->set->wide[candidates->list[c]];
+    if (shadow->owner == object->row || !holds(shadow, middle, cuts, object->box->e)) return false;
+    if (object->by_faces || is_behind(object->box, shadow)) return true;
+    object->left.faces = true;
+    return false;
+}
+
+// As occ_fusion_find().
+static inline uint32_t find(object_fusion *object)
+{
+    const range_fusion *common = object->common;
+    const rect_list *list = &common->list;
+    fusion_lanes *left = &object->left;
+    const piece_lanes *top = &left->stack[left->depth - 1];
+    occ_vertex middle = middle_of(top);
+    float u, v;
+    project_vertex(common->screen, &middle, &u, &v);
+    for (uint32_t i = 0; i < list->count; i += NEAR_BITS) {
+        for (uint64_t near = near_in_list(list, i, u, v); near; near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctzll(near);
+            if (serves(object, c, &middle, top->cuts)) return c;
+        }
+    }
+    uint32_t c = list->count;
+    while (c < common->candidates->count && !serves(object, c, &middle, top->cuts))
+        c++;
+    return c;
+}
+
+// As occ_fusion_covers().
+static bool covers(object_fusion *object, bool by_faces)
+{
+    const range_fusion *common = object->common;
+    const occ_candidates *candidates = common->candidates;
+    fusion_lanes *left = &object->left;
+    object->by_faces = by_faces;
+    left->faces = false;
+    if (!see_outline(left, object->box, common->eye, by_faces)) return false;
+    clip(left, common->eye, common->range->frustum, object->box->e);
+    for (uint32_t split = 0; left->depth; split++) {
+        uint32_t c = find(object);
+        if (c == candidates->count || split == common->eye->splits ||
+            !subtract(left, &candidates->set->wide[candidates->list[c]], object->box->e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// As occ_box_fused(), where a candidate holds the center or the center is not in the picture, and
+// none hides the object alone.
 static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row)
 {
-    const occ_candidates *candidates = common->candidates;
     occ_projection seen;
-    fusion_lanes fusion;
+    object_fusion object;
     project_corners(common->screen, box, &seen);
     uint32_t shown = corners_in_frustum(&seen, common->eye, common->range->frustum);
     for (uint32_t i = 0; i < 8; i++) {
         uint32_t k = (i + common->hint) & 7u;
         if (!(shown >> k & 1u)) continue;
-        if (corner_is_held(&common->list, candidates, row, &seen, k, box->e)) continue;
+        if (corner_is_held(&common->list, common->candidates, row, &seen, k, box->e)) continue;
         common->hint = k;
         return false;
     }
-    start_fusion(&fusion);
-    for (uint32_t i = 0; i < candidates->count; i++) {
-        uint32_t s = candidates->list[i];
-        if (candidates->set->wide[s].owner == row) continue;
-        if (consider(&fusion, box, &candidates->set->wide[s])) return true;
-    }
-    return fusion.candidates && fuse_candidates(&fusion, box, common->eye, common->range->frustum);
+    object.common = common;
+    object.box = box;
+    object.row = row;
+    return covers(&object, false) || (object.left.faces && covers(&object, true));
 }
 
 // Objects of `open` that several candidates hide together.

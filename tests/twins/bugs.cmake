@@ -144,17 +144,17 @@ endif()
 # --- what several hide together ------------------------------------------------------------------
 if(TARGET test_fusion)
     set(fused_too_much "world [0-9]+: object [0-9]+ is hidden, but it can be seen")
-    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "((e) + OCC_VERTEX_SLACK + " BY "(-(e) - OCC_VERTEX_SLACK - "
+    occ_plant(fusion_without_bounds IN kernels/piece.h REPLACE "((d) - ((object)*OCC_OBJECT_SLACK + " BY "((d) + 32.0f * ((object)*OCC_OBJECT_SLACK + "
         COMPILE backend_plain.c)
     occ_caught_by(fusion_without_bounds fusion random "${fused_too_much}")
-    occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;"
-        BY "(void)by_faces;" COMPILE backend_plain.c)
+    occ_plant(fusion_in_front IN kernels/fusion.h REPLACE "if (by_faces || occ_box_is_behind(box, shadow)) return 1;"
+        BY "(void)box;\n    (void)shadow;\n    if (!by_faces) return 1;" COMPILE backend_plain.c)
     occ_caught_by(fusion_in_front fusion random "${fused_too_much}")
-    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "!= row && occ_fusion_consider" BY "!= row + 1000000 && occ_fusion_consider"
+    occ_plant(fusion_of_owners IN kernels/fusion.h REPLACE "if (shadow->owner == row) continue;" BY "(void)row;"
         COMPILE backend_plain.c)
     occ_caught_by(fusion_of_owners fusion random "${fused_too_much}")
     occ_plant(fusion_half_a_piece IN kernels/fusion.h REPLACE "if (cut == OCC_CUT_TWO) fusion->depth++;"
-        BY "if (cut == OCC_CUT_TWO && p) fusion->depth++;" COMPILE backend_plain.c)
+        BY "if (cut == OCC_CUT_TWO && n->x < 0.0f) fusion->depth++;" COMPILE backend_plain.c)
     occ_caught_by(fusion_half_a_piece fusion random "${fused_too_much}")
 endif()
 
@@ -163,26 +163,28 @@ endif()
 if(TARGET test_lanes_fusion)
     set(fused_otherwise "[a-z0-9]+ in world [0-9]+")
     set(vectors COMPILE lanes_plain)
-    occ_plant(vectors_turned_round IN src/lanes_piece.h REPLACE "from[m][i - head]" BY "from[m][n - 1 - i]" ${vectors})
+    occ_plant(vectors_turned_round IN src/lanes_piece.h REPLACE "old[i - head]" BY "old[n - 1 - i]" ${vectors})
     occ_caught_by(vectors_turned_round lanes_fusion worlds "${fused_otherwise}")
     if("avx512" IN_LIST occ_planted_lanes)
-        occ_plant(vectors_one_late IN src/lanes_piece.h REPLACE "_mm256_set1_epi32((int)first - 1)" BY "_mm256_set1_epi32((int)first)"
+        occ_plant(vectors_one_late IN src/lanes_piece.h REPLACE "iota + (int)first, beyond" BY "iota + (int)first + 1, beyond"
             COMPILE lanes_avx512)
         occ_caught_by(vectors_one_late lanes_fusion worlds "${fused_otherwise}")
     endif()
-    occ_plant(vectors_third_face_cuts_nothing IN src/lanes_fusion.h REPLACE "if (n.d == OCC_NO_PLANE_AT) return;"
-        BY "if (n.d <= OCC_NO_PLANE_AT) return;" ${vectors})
+    occ_plant(vectors_third_face_cuts_nothing IN src/lanes_fusion.h REPLACE "return shadow->planes & ~inside;"
+        BY "return shadow->planes & ~inside & 0xffu;" ${vectors})
     occ_caught_by(vectors_third_face_cuts_nothing lanes_fusion worlds "${fused_otherwise}")
-    occ_caught_by(vectors_third_face_cuts_nothing lanes_walk worlds "${answers_differ}")
-    occ_plant(vectors_third_face_holds_all IN src/lanes_fusion.h REPLACE "if (!(planes >> OCC_PLANE_LANES)) return true;"
-        BY "if (planes >> OCC_PLANE_LANES < 2u) return true;" ${vectors})
+    occ_plant(vectors_third_face_parts_nothing IN src/lanes_fusion.h REPLACE "if (n[3] == OCC_NO_PLANE_AT) return;"
+        BY "if (n[3] <= OCC_NO_PLANE_AT) return;" ${vectors})
+    occ_caught_by(vectors_third_face_parts_nothing lanes_walk worlds "${answers_differ}")
+    occ_plant(vectors_third_face_holds_all IN src/lanes_fusion.h REPLACE "if (!(shadow->planes >> OCC_PLANE_LANES)) return true;"
+        BY "if (shadow->planes >> OCC_PLANE_LANES < 2u) return true;" ${vectors})
     occ_caught_by(vectors_third_face_holds_all lanes variants "plain in round [0-9]+")
-    occ_plant(vectors_third_face_for_all IN src/lanes_fusion.h REPLACE "n.d, x, y, z) > e;" BY "n.d, x, y, z) > e && n.d < OCC_NO_PLANE_AT;" ${vectors})
+    occ_plant(vectors_third_face_for_all IN src/lanes_fusion.h REPLACE "n[3], x, y, z) > e;" BY "n[3], x, y, z) > e && n[3] < OCC_NO_PLANE_AT;" ${vectors})
     occ_caught_by(vectors_third_face_for_all lanes_fusion worlds "${fused_otherwise}")
     occ_plant(vectors_lose_what_the_picture_cuts IN src/lanes_fusion.h REPLACE "if (cut == OCC_CUT_INSIDE) continue;"
         BY "if (cut == OCC_CUT_INSIDE || cut == OCC_CUT_TWO) continue;" ${vectors})
     occ_caught_by(vectors_lose_what_the_picture_cuts lanes_fusion worlds "${fused_otherwise}")
-    occ_plant(node_in_front IN src/lanes_walk.h REPLACE "met.cutting >> OCC_FACE_LANE" BY "met.cutting >> (OCC_FACE_LANE + 3u)" ${vectors})
+    occ_plant(node_in_front IN src/lanes_walk.h REPLACE "is_behind(question->box, &set->wide[i])" BY "question->box" ${vectors})
     occ_caught_by(node_in_front lanes_walk worlds "${answers_differ}")
     occ_plant(corners_beside_the_picture IN src/lanes_screen.h REPLACE "in &= inner;" BY "in &= inner | 0xffu;" ${vectors})
     occ_caught_by(corners_beside_the_picture lanes_fusion worlds "${fused_otherwise}")
