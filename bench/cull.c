@@ -43,7 +43,7 @@ static const char cull_usage[] =
     "  --out R.vis        write the verdicts of every frame\n"
     "  --csv F.csv        write a row for each frame\n"
     "  --preset P         fast, balanced (default) or thorough: what stands for knobs not given\n"
-    "  --min-area A       smallest solid angle at which an occluder is used (balanced: 2e-4)\n"
+    "  --min-area A       smallest solid angle at which an occluder is used (balanced: 3e-4)\n"
     "  --grain N          most objects in a node that is tested as it is (balanced: 64)\n"
     "  --max-occluders N  most occluders used in a frame (balanced: 1024)\n"
     "  --max-splits N     most subtractions for an object in fused (balanced: 48)\n"

@@ -318,7 +318,7 @@ END_TEST
 START_TEST(zero_stands_for_the_documented_default)
 {
     static const occ_cull_desc documented = {
-        .min_area = 2e-4f, .max_occluders = 1024, .grain = 64, .max_splits = 48};
+        .min_area = 3e-4f, .max_occluders = 1024, .grain = 64, .max_splits = 48};
     for (uint32_t i = 0; i < 5; i++) {
         occ_camera_desc camera = kit_path(i);
         uint32_t *masks[3];

@@ -83,7 +83,7 @@ typedef struct occ_cull_desc {
     occ_preset preset; ///< Sets those of the knobs below that are 0. Default: balanced.
     /// The smallest solid angle, in steradians, at which an occluder is worth using: about its
     /// projected area over its distance squared; for an orthographic camera, over the view's area.
-    /// 0: the preset's, 2e-4 by default. For every occluder, pass 1e-30.
+    /// 0: the preset's, 3e-4 by default. For every occluder, pass 1e-30.
     float min_area;
     /// Most occluders used in a frame, nearest first. 0: the preset's, 1024 by default.
     uint32_t max_occluders;
