@@ -135,14 +135,11 @@ static occ_result check_boxes(const occ_scene *scene, const occ_box *boxes, size
     if (count > MOST_ITEMS) {
         return occ_fail(&scene->hooks, OCC_ERROR_LIMIT, "%zu %s", count, what);
     }
-    for (size_t i = 0; i < count; i++) {
-        occ_result result = occ_box_check(&boxes[i]);
-        if (result) {
-            return occ_fail(&scene->hooks, result, "box %zu of %zu %s: %s", i, count, what,
-                            occ_result_message(result));
-        }
-    }
-    return OCC_SUCCESS;
+    uint32_t bad = occ_boxes_first_bad(boxes, (uint32_t)count, scene->team);
+    if (bad == count) return OCC_SUCCESS;
+    occ_result result = occ_box_check(&boxes[bad]);
+    return occ_fail(&scene->hooks, result, "box %u of %zu %s: %s", bad, count, what,
+                    occ_result_message(result));
 }
 
 static occ_result stale(const occ_scene *scene, const char *what, uint32_t index,
@@ -159,10 +156,10 @@ occ_result occ_scene_add_many(occ_scene *scene, const occ_box *boxes, size_t cou
     if (result || !count) return result;
     result = reserve_objects(scene, count);
     if (result) return occ_fail(&scene->hooks, result, "no room for %zu more objects", count);
+    occ_boxes_put(&scene->boxes, scene->boxes.count, boxes, (uint32_t)count, scene->team);
     for (size_t i = 0; i < count; i++) {
         uint32_t row = scene->boxes.count++;
         uint32_t slot = occ_slots_take(&scene->objects, row);
-        occ_boxes_set(&scene->boxes, row, &boxes[i]);
         ((uint32_t *)scene->slot_of.data)[row] = slot;
         if (objects) objects[i] = (occ_object){slot + 1, scene->objects.generation[slot]};
     }
