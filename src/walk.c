@@ -113,7 +113,7 @@ static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t co
         float least = step < 3 ? most * 0.25f : -1.0f;
         for (uint32_t i = 0; i < count; i++) {
             sorted[placed] = list[i];
-            bool here = area[i] >= least;
+            bool here = !(area[i] < least); // NaN as well
             placed += here;
             area[i] = here ? -2.0f : area[i];
         }
