@@ -61,7 +61,7 @@ static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye
 static inline uint32_t centers_inside(const object_lanes *o, const occ_shadow *shadow,
                                       uint32_t open)
 {
-    for (uint32_t p = 0; p < shadow->planes && open; p++)
+    for (uint32_t p = 0; p < shadow->planes; p++)
         open &= above_wide(center_of_objects(o, shadow->plane[p]), o->e);
     return open;
 }
@@ -230,20 +230,36 @@ static uint32_t fuse_objects(range_fusion *common, const occ_boxes *boxes, uint3
     return hidden;
 }
 
-// Where the centers of objects are on the screen: bounds of u and v, infinite if one is not clearly
-// in front of the eye.
+// Where the centers of objects are on the screen: u and v, NaN for one that is not clearly in front
+// of the eye.
+typedef struct seen_centers {
+    fwide at[2];
+} seen_centers;
+
+// Sets the bounds of those that `objects` names, too: infinite if one is NaN.
 static inline void centers_on_screen(const object_lanes *o, const occ_screen *screen,
-                                     uint32_t objects, occ_projection *seen)
+                                     uint32_t objects, seen_centers *centers, occ_projection *seen)
 {
     const float(*row)[3] = screen->row;
     const fwide *t = o->t, least = screen->least * OCC_NORM1(t[0], t[1], t[2]);
     fwide w = OCC_PLANE_AT(row[2][0], row[2][1], row[2][2], screen->w, t[0], t[1], t[2]);
-    bool clear = (above_wide(w, least) & objects) == objects;
+    iwide clear = w > least;
+    bool whole = (above_wide(w, least) & objects) == objects;
     for (uint32_t r = 0; r < 2; r++) {
         fwide at = (row[r][0] * t[0] + row[r][1] * t[1] + row[r][2] * t[2]) / w;
-        seen->min[r] = clear ? -largest_of_wide(-at, objects) : -INFINITY;
-        seen->max[r] = clear ? largest_of_wide(at, objects) : INFINITY;
+        seen->min[r] = whole ? -largest_of_wide(-at, objects) : -INFINITY;
+        seen->max[r] = whole ? largest_of_wide(at, objects) : INFINITY;
+        centers->at[r] = (fwide)((iwide)at | ~clear);
     }
+}
+
+// The objects whose center candidate c may hold.
+static inline uint32_t centers_near(const seen_centers *centers, const rect_list *list, uint32_t c)
+{
+    fwide u = centers->at[0], v = centers->at[1];
+    fwide least[4] = {splat_wide(list->left[c]), u, splat_wide(list->low[c]), v};
+    fwide most[4] = {u, splat_wide(list->right[c]), v, splat_wide(list->high[c])};
+    return none_above_wide(least, most);
 }
 
 // What is known of as many objects as there are lanes.
@@ -252,11 +268,12 @@ typedef struct known_lanes {
     uint32_t held; // one holds its center
 } known_lanes;
 
+// Candidate c and those of the open objects that `near` names.
 static inline void test_candidate(known_lanes *known, const object_lanes *lanes, uint32_t row,
-                                  const occ_candidates *candidates, uint32_t c)
+                                  const occ_candidates *candidates, uint32_t c, uint32_t near)
 {
     const occ_shadow *shadow = &candidates->set->shadows[candidates->list[c]];
-    uint32_t centers = centers_inside(lanes, shadow, known->open), own = shadow->owner - row;
+    uint32_t centers = centers_inside(lanes, shadow, near & known->open), own = shadow->owner - row;
     if (own < OCC_WIDTH) centers &= ~(1u << own);
     if (!centers) return;
     known->held |= centers;
@@ -267,16 +284,26 @@ static inline void test_candidates(known_lanes *known, const object_lanes *lanes
                                    const range_fusion *common)
 {
     const occ_candidates *candidates = common->candidates;
+    const rect_list *list = &common->list;
     occ_projection seen;
-    centers_on_screen(lanes, common->screen, known->open, &seen);
-    for (uint32_t i = 0; i < common->list.count && known->open; i += OCC_SHADOW_LANES) {
-        rect_lanes rects = rects_of_list(&common->list, i);
+    seen_centers centers;
+    centers_on_screen(lanes, common->screen, known->open, &centers, &seen);
+    for (uint32_t i = 0; i < list->count && known->open; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(list, i);
         uint32_t near = near_box(&rects, &seen);
-        for (near = present(near, common->list.count - i); near; near &= near - 1u)
-            test_candidate(known, lanes, row, candidates, i + (uint32_t)__builtin_ctz(near));
+        uint32_t hits = 0, objects[OCC_SHADOW_LANES];
+        for (near = present(near, list->count - i); near; near &= near - 1u) {
+            uint32_t l = (uint32_t)__builtin_ctz(near);
+            objects[l] = centers_near(&centers, list, i + l) & known->open;
+            hits |= (uint32_t)(objects[l] != 0) << l;
+        }
+        for (; hits; hits &= hits - 1u) {
+            uint32_t l = (uint32_t)__builtin_ctz(hits);
+            test_candidate(known, lanes, row, candidates, i + l, objects[l]);
+        }
     }
-    for (uint32_t c = common->list.count; c < candidates->count && known->open; c++)
-        test_candidate(known, lanes, row, candidates, c);
+    for (uint32_t c = list->count; c < candidates->count && known->open; c++)
+        test_candidate(known, lanes, row, candidates, c, known->open);
 }
 
 static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,
