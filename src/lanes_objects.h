@@ -67,7 +67,7 @@ static inline uint32_t outside_frustum(const object_lanes *o, const occ_eye *eye
 static inline uint32_t centers_inside(const object_lanes *o, const occ_shadow *shadow,
                                       uint32_t open)
 {
-    for (uint32_t p = 0; p < shadow->planes; p++)
+    for (uint32_t p = 0; p < shadow->planes && open; p++)
         open &= above_wide(center_of_objects(o, shadow->plane[p]), o->e);
     return open;
 }
@@ -296,15 +296,10 @@ static inline void test_candidates(known_lanes *known, const object_lanes *lanes
     for (uint32_t i = 0; i < common->list.count && known->open; i += OCC_SHADOW_LANES) {
         rect_lanes rects = rects_of_list(&common->list, i);
         uint32_t near = near_box(&rects, &centers.bounds);
-        uint32_t hits = 0, at[OCC_SHADOW_LANES];
         for (near = present(near, common->list.count - i); near; near &= near - 1u) {
-            uint32_t l = (uint32_t)__builtin_ctz(near);
-            at[l] = centers_near(&centers, &common->list, i + l) & known->open;
-            hits |= (uint32_t)(at[l] != 0) << l;
-        }
-        for (; hits; hits &= hits - 1u) {
-            uint32_t l = (uint32_t)__builtin_ctz(hits);
-            test_candidate(known, lanes, row, candidates, i + l, at[l]);
+            uint32_t c = i + (uint32_t)__builtin_ctz(near);
+            uint32_t at = centers_near(&centers, &common->list, c) & known->open;
+            if (at) test_candidate(known, lanes, row, candidates, c, at);
         }
     }
     for (uint32_t c = common->list.count; c < candidates->count && known->open; c++)
