@@ -101,6 +101,7 @@ OCC_FN float occ_vertex_at(const occ_vertex *v, const occ_cutter *n)
 // About 1 / x, never more but for what it rounds: the same bits on every device, which a quotient
 // is not. The first guess is off by an eighth at most, and by a 64th what becomes of it.
 #define OCC_RECIPROCAL_GUESS 0x7ef311c7
+#define OCC_RECIPROCAL_MOST  0x1p100f // the largest x for which this is so, by far
 
 OCC_FN float occ_reciprocal(float x)
 {
@@ -113,12 +114,12 @@ OCC_FN float occ_reciprocal(float x)
 OCC_FN int occ_vertex_between(const occ_vertex *a, float at_a, const occ_vertex *b, float at_b,
                               float level, float least, const occ_cutter *n, occ_vertex *c)
 {
-    float f = level - at_b, g = at_a - level, r = occ_reciprocal(f + g);
+    float f = level - at_b, g = at_a - level, sum = f + g, r = occ_reciprocal(sum);
     c->x = r * (f * a->x + g * b->x);
     c->y = r * (f * a->y + g * b->y);
     c->z = r * (f * a->z + g * b->z);
     c->w = r * (f * a->w + g * b->w);
-    return occ_vertex_at(c, n) > least;
+    return sum < OCC_RECIPROCAL_MOST && occ_vertex_at(c, n) > least;
 }
 
 // Vertices i to end, round the polygon, then c and d.

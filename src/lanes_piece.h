@@ -98,13 +98,15 @@ static inline bool make_fresh(fresh_lanes *fresh, const piece_lanes *piece, cons
                               const crossings *cross, float level, const occ_cutter *n)
 {
     uint32_t a0 = cross->leave, a1 = cross->first, b0 = cross->last, b1 = cross->enter;
-    fnode f = level - pick(at, b0, b1), g = pick(at, a0, a1) - level, r = reciprocal(f + g);
+    fnode f = level - pick(at, b0, b1), g = pick(at, a0, a1) - level, sum = f + g;
+    fnode r = reciprocal(sum);
     fresh->x = r * (f * pick(piece->x, a0, a1) + g * pick(piece->x, b0, b1));
     fresh->y = r * (f * pick(piece->y, a0, a1) + g * pick(piece->y, b0, b1));
     fresh->z = r * (f * pick(piece->z, a0, a1) + g * pick(piece->z, b0, b1));
     fresh->w = r * (f * pick(piece->w, a0, a1) + g * pick(piece->w, b0, b1));
     fnode value = OCC_PLANE_AT(n->x, n->y, n->z, n->d * fresh->w, fresh->x, fresh->y, fresh->z);
-    return (above_node(value, splat_node(OCC_VERTEX_LEAST(piece->cuts + 1))) & 3u) == 3u;
+    uint32_t good = above_node(value, splat_node(OCC_VERTEX_LEAST(piece->cuts + 1)));
+    return (good & above_node(splat_node(OCC_RECIPROCAL_MOST), sum) & 3u) == 3u;
 }
 
 // Vertices from `first` on, `n` of them, round the polygon, and then two of the fresh ones, from

@@ -101,23 +101,22 @@ static float shown_area(const occ_shadow_set *set, uint32_t i)
 // Puts those that take up much of the screen first, in steps of a factor of four.
 static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t count)
 {
-    uint32_t sorted[MOST_SORTED];
-    float area[MOST_SORTED], most = 0.0f;
-    if (count > MOST_SORTED) return;
+    uint32_t sorted[MOST_SORTED], placed = 0;
+    float area[MOST_SORTED], least = 0.0f;
+    if (count < 2 || count > MOST_SORTED) return;
     for (uint32_t i = 0; i < count; i++) {
         area[i] = shown_area(set, list[i]);
-        most = area[i] > most ? area[i] : most;
+        least = area[i] > least ? area[i] : least;
     }
-    uint32_t placed = 0;
-    for (uint32_t step = 0; step < 4 && placed < count; step++) {
-        float least = step < 3 ? most * 0.25f : -1.0f;
-        for (uint32_t i = 0; i < count; i++) {
-            sorted[placed] = list[i];
-            bool here = !(area[i] < least); // NaN as well
-            placed += here;
-            area[i] = here ? -2.0f : area[i];
+    uint64_t waiting = ~(uint64_t)0 >> (MOST_SORTED - count);
+    for (uint32_t step = 0; waiting; step++) {
+        least = step < 3 ? least * 0.25f : -INFINITY;
+        for (uint64_t left = waiting; left; left &= left - 1) {
+            uint32_t i = (uint32_t)__builtin_ctzll(left);
+            if (area[i] < least) continue; // a NaN goes first
+            sorted[placed++] = list[i];
+            waiting &= ~((uint64_t)1 << i);
         }
-        most = least;
     }
     memcpy(list, sorted, count * sizeof *list);
 }
