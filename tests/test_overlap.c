@@ -280,6 +280,8 @@ static void check_pair(const occ_box *box, float corner[3][3], int trial, unsign
     const float *const by_pointer[3] = {corner[0], corner[1], corner[2]};
     occ_contact got = occ_ready_box_meets(&ready, by_pointer);
     KIT_CHECK(got == want, "trial %d: %d, not %d", trial, (int)got, (int)want);
+    KIT_CHECK(occ_ready_box_entered(&ready, by_pointer) == (want == OCC_ENTERING),
+              "trial %d: entered", trial);
     float point[3][3] = {{corner[0][0], corner[0][1], corner[0][2]},
                          {corner[0][0], corner[0][1], corner[0][2]},
                          {corner[0][0], corner[0][1], corner[0][2]}};

@@ -20,7 +20,7 @@
 #define NORMAL_ERROR(e, q) (128.0 * (e) * (q) * (q) + 0x1p-44 * (q) * (q) * (q))
 
 // The axes: three normals of the box, the triangle's, and the products of edges and the box's axes.
-enum { AXIS_FACE = 0, AXIS_NORMAL = 3, AXIS_EDGE = 4 };
+enum { AXIS_FACE = 0, AXIS_NORMAL = 3, AXIS_EDGE = 4, AXES = 13 };
 
 // --- making ready --------------------------------------------------------------------------------
 
@@ -41,10 +41,19 @@ static bool has_no_volume(const occ_box *box)
     return occ_unrounded_determinant(&a[0], &a[1], &a[2]).sign == 0;
 }
 
+// The one element of a row that is not zero, or -1 if there are several. The elements of the
+// inverse are zero where those of the normals are: rounding makes none so.
+static int only_element(const double row[3])
+{
+    int used = (row[0] != 0.0) + (row[1] != 0.0) + (row[2] != 0.0);
+    if (used != 1) return -1;
+    return row[0] != 0.0 ? 0 : row[1] != 0.0 ? 1 : 2;
+}
+
 void occ_ready_box_make(const occ_box *box, occ_ready_box *ready)
 {
     double normal[3][3], volume = 0.0, terms = 0.0, most = 0.0;
-    *ready = (occ_ready_box){.box = *box, .error = INFINITY};
+    *ready = (occ_ready_box){.box = *box, .error = INFINITY, .along = {-1, -1, -1}};
     for (int k = 0; k < 3; k++)
         cross_floats(box->axis[(k + 1) % 3], box->axis[(k + 2) % 3], normal[k]);
     for (int j = 0; j < 3; j++) {
@@ -67,6 +76,8 @@ void occ_ready_box_make(const occ_box *box, occ_ready_box *ready)
     }
     // An element of the inverse is off by 2u and the volume's error, relative to itself; led with
     // it, a coordinate by 4u more of the sum of magnitudes (its own difference, product, two sums).
+    for (int k = 0; k < 3; k++)
+        ready->along[k] = only_element(ready->inverse[k]);
     ready->error = most * (8.0 + 6.0 * (terms / fabs(volume))) * 0x1p-53;
 }
 
@@ -101,35 +112,78 @@ static void lead(const occ_ready_box *ready, const float *const *corner, int cor
     led->most = most;
 }
 
-// What a range of a triangle along an axis says where the cube's is [-reach, reach] and their sum
-// is off by at most `error`.
-typedef enum verdict_on_axis { AXIS_OVERLAPS, AXIS_IN_DOUBT, AXIS_SEPARATES } verdict_on_axis;
+// What an axis tells of a triangle and the box.
+typedef enum verdict_on_axis {
+    AXIS_OVERLAPS, // nothing
+    AXIS_TOUCHES,  // that they touch at most
+    AXIS_IN_DOUBT,
+    AXIS_SEPARATES // that they are apart
+} verdict_on_axis;
 
+// Of a triangle's range along an axis and the cube's, [-reach, reach], which in sum are off by at
+// most `error`.
 static inline verdict_on_axis judge_range(double low, double high, double reach, double error)
 {
     if (low > reach + error || high < -reach - error) return AXIS_SEPARATES;
     return low < reach - error && high > error - reach ? AXIS_OVERLAPS : AXIS_IN_DOUBT;
 }
 
-// The next are for all axes of a kind: false if one separates, else those in doubt are added.
+// The same without rounding where the faces are perpendicular to a coordinate and differences of
+// floats are doubles, as they mostly are.
+static verdict_on_axis judge_upright(const occ_ready_box *ready, const float *const *corner,
+                                     int corners, int k)
+{
+    int j = ready->along[k];
+    double center = (double)ready->box.center[j], half = fabs((double)ready->box.axis[k][j]);
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < corners; i++) {
+        double x = (double)corner[i][j], d = x - center;
+        if (center + d != x || x - d != center) return AXIS_IN_DOUBT;
+        low = d < low ? d : low;
+        high = d > high ? d : high;
+    }
+    if (low > half || high < -half) return AXIS_SEPARATES;
+    return low < half && high > -half ? AXIS_OVERLAPS : AXIS_TOUCHES;
+}
 
-static bool try_faces(const led_triangle *led, uint32_t *doubt)
+// What is known on the way.
+typedef struct contact_search {
+    const occ_ready_box *ready;
+    const float *const *corner;
+    occ_contact contact; // no better than this
+    occ_contact enough;  // the search may end there
+    uint32_t doubt;      // axes that floating point left
+} contact_search;
+
+// Whether the search may go on.
+static inline bool take_verdict(contact_search *search, verdict_on_axis verdict, int axis)
+{
+    if (verdict == AXIS_SEPARATES) search->contact = OCC_APART;
+    if (verdict == AXIS_TOUCHES) search->contact = OCC_TOUCHING;
+    if (verdict == AXIS_IN_DOUBT) search->doubt |= 1u << axis;
+    return search->contact > search->enough;
+}
+
+// The next are for all axes of a kind: false ends the search.
+
+static bool try_faces(contact_search *search, const led_triangle *led, int corners)
 {
     for (int k = 0; k < 3; k++) {
         double low = led->q[0][k], high = low;
-        for (int i = 1; i < 3; i++) {
+        for (int i = 1; i < corners; i++) {
             double q = led->q[i][k];
             low = q < low ? q : low;
             high = q > high ? q : high;
         }
         verdict_on_axis verdict = judge_range(low, high, 1.0, led->error);
-        if (verdict == AXIS_SEPARATES) return false;
-        if (verdict == AXIS_IN_DOUBT) *doubt |= 1u << (AXIS_FACE + k);
+        if (verdict == AXIS_IN_DOUBT && search->ready->along[k] >= 0)
+            verdict = judge_upright(search->ready, search->corner, corners, k);
+        if (!take_verdict(search, verdict, AXIS_FACE + k)) return false;
     }
     return true;
 }
 
-static bool try_edges(const led_triangle *led, uint32_t *doubt)
+static bool try_edges(contact_search *search, const led_triangle *led)
 {
     double error = EDGE_ERROR(led->error, led->most);
     for (int e = 0; e < 3; e++) {
@@ -140,14 +194,13 @@ static bool try_edges(const led_triangle *led, uint32_t *doubt)
             double p = f[j] * a[i] - f[i] * a[j], r = f[j] * c[i] - f[i] * c[j];
             double low = p < r ? p : r, high = p < r ? r : p;
             verdict_on_axis verdict = judge_range(low, high, fabs(f[i]) + fabs(f[j]), error);
-            if (verdict == AXIS_SEPARATES) return false;
-            if (verdict == AXIS_IN_DOUBT) *doubt |= 1u << (AXIS_EDGE + 3 * e + k);
+            if (!take_verdict(search, verdict, AXIS_EDGE + 3 * e + k)) return false;
         }
     }
     return true;
 }
 
-static bool try_normal(const led_triangle *led, uint32_t *doubt)
+static bool try_normal(contact_search *search, const led_triangle *led)
 {
     const double *a = led->q[0], *b = led->q[1], *c = led->q[2];
     double level = 0.0, reach = 0.0;
@@ -158,9 +211,7 @@ static bool try_normal(const led_triangle *led, uint32_t *doubt)
         reach += fabs(n);
     }
     double error = NORMAL_ERROR(led->error, led->most);
-    verdict_on_axis verdict = judge_range(level, level, reach, error);
-    if (verdict == AXIS_IN_DOUBT) *doubt |= 1u << AXIS_NORMAL;
-    return verdict != AXIS_SEPARATES;
+    return take_verdict(search, judge_range(level, level, reach, error), AXIS_NORMAL);
 }
 
 static bool surely_inside(const led_triangle *led, int corner)
@@ -170,21 +221,17 @@ static bool surely_inside(const led_triangle *led, int corner)
     return fabs(q[0]) < limit && fabs(q[1]) < limit && fabs(q[2]) < limit;
 }
 
-// Whether floating point has the answer; if not, `doubt` has the axes that are left.
-static bool decide_in_doubles(const occ_ready_box *ready, const float *const corner[3],
-                              occ_contact *contact, uint32_t *doubt)
+// All that floating point has to say; what it cannot is in `doubt`.
+static void search_in_doubles(contact_search *search)
 {
     led_triangle led;
-    *doubt = (1u << 13) - 1;
-    lead(ready, corner, 3, &led);
-    if (!(led.error < 0x1p-10)) return false;
-    *doubt = 0;
-    *contact = OCC_ENTERING;
-    if (surely_inside(&led, 0) || surely_inside(&led, 1) || surely_inside(&led, 2)) return true;
-    if (try_faces(&led, doubt) && try_normal(&led, doubt) && try_edges(&led, doubt))
-        return *doubt == 0;
-    *contact = OCC_APART;
-    return true;
+    lead(search->ready, search->corner, 3, &led);
+    if (!(led.error < 0x1p-10)) {
+        search->doubt = (1u << AXES) - 1;
+        return;
+    }
+    if (surely_inside(&led, 0) || surely_inside(&led, 1) || surely_inside(&led, 2)) return;
+    (void)(try_faces(search, &led, 3) && try_normal(search, &led) && try_edges(search, &led));
 }
 
 // --- without rounding ----------------------------------------------------------------------------
@@ -244,19 +291,13 @@ static occ_unrounded_vector unit_vector(int k)
     return unit;
 }
 
-static occ_contact contact_along_axis(const exact_pair *pair, const occ_ready_box *ready,
-                                      uint32_t axis)
+static occ_contact contact_along_axis(const exact_pair *pair, const occ_ready_box *ready, int axis)
 {
     occ_unrounded_vector n;
     if (axis < AXIS_NORMAL) {
-        // The elements of the inverse are zero where the normal's are: no rounding makes one so.
-        const double *row = ready->inverse[axis];
-        int used = (row[0] != 0.0) + (row[1] != 0.0) + (row[2] != 0.0);
-        if (used == 1) {
-            n = unit_vector(row[0] != 0.0 ? 0 : row[1] != 0.0 ? 1 : 2);
-        } else {
-            n = occ_unrounded_cross(&pair->axis[(axis + 1) % 3], &pair->axis[(axis + 2) % 3]);
-        }
+        n = ready->along[axis] >= 0
+                ? unit_vector(ready->along[axis])
+                : occ_unrounded_cross(&pair->axis[(axis + 1) % 3], &pair->axis[(axis + 2) % 3]);
     } else if (axis == AXIS_NORMAL) {
         n = occ_unrounded_cross(&pair->edge[0], &pair->edge[1]);
     } else {
@@ -266,19 +307,17 @@ static occ_contact contact_along_axis(const exact_pair *pair, const occ_ready_bo
     return contact_along(pair, &n);
 }
 
-// The axes of `mask`, which are all that matter.
-static occ_contact decide_exactly(const occ_ready_box *ready, const float *const corner[3],
-                                  uint32_t mask)
+// The axes in doubt.
+static void search_exactly(contact_search *search)
 {
+    if (search->contact <= search->enough || !search->doubt) return;
     exact_pair pair;
-    make_exact(&ready->box, corner, &pair);
-    occ_contact contact = OCC_ENTERING;
-    for (uint32_t axis = 0; mask && contact != OCC_APART; axis++, mask >>= 1) {
-        if (!(mask & 1u)) continue;
-        occ_contact along = contact_along_axis(&pair, ready, axis);
-        if (along < contact) contact = along;
+    make_exact(&search->ready->box, search->corner, &pair);
+    for (int axis = 0; axis < AXES && search->contact > search->enough; axis++) {
+        if (!(search->doubt >> axis & 1u)) continue;
+        occ_contact along = contact_along_axis(&pair, search->ready, axis);
+        if (along < search->contact) search->contact = along;
     }
-    return contact;
 }
 
 // A flat box and a triangle may lie in one plane or line, where the axes above do not suffice. All
@@ -286,42 +325,55 @@ static occ_contact decide_exactly(const occ_ready_box *ready, const float *const
 // to them, and one of the three for each edge is not perpendicular to the plane as well; being in
 // one line, the three of one edge hold the triangle to the line, and a coordinate's direction
 // compares along it.
-static occ_contact decide_flat(const occ_ready_box *ready, const float *const corner[3])
+static bool flat_box_is_met(const occ_ready_box *ready, const float *const corner[3])
 {
     exact_pair pair;
-    occ_contact contact = decide_exactly(ready, corner, (1u << 13) - 1);
-    if (contact == OCC_APART) return OCC_APART;
+    contact_search search = {ready, corner, OCC_TOUCHING, OCC_APART, (1u << AXES) - 1};
+    search_exactly(&search);
+    if (search.contact == OCC_APART) return false;
     make_exact(&ready->box, corner, &pair);
     for (int k = 0; k < 3; k++) {
         occ_unrounded_vector unit = unit_vector(k);
-        if (contact_along(&pair, &unit) == OCC_APART) return OCC_APART;
+        if (contact_along(&pair, &unit) == OCC_APART) return false;
         for (int i = 0; i < 6; i++) {
             occ_unrounded_vector n =
                 occ_unrounded_cross(i < 3 ? &pair.edge[i] : &pair.axis[i - 3], &unit);
-            if (contact_along(&pair, &n) == OCC_APART) return OCC_APART;
+            if (contact_along(&pair, &n) == OCC_APART) return false;
         }
     }
-    return OCC_TOUCHING;
+    return true;
 }
 
 // --- questions -----------------------------------------------------------------------------------
 
+static occ_contact contact_of(const occ_ready_box *ready, const float *const corner[3],
+                              occ_contact enough)
+{
+    contact_search search = {ready, corner, OCC_ENTERING, enough, 0};
+    search_in_doubles(&search);
+    search_exactly(&search);
+    return search.contact;
+}
+
 occ_contact occ_ready_box_meets(const occ_ready_box *ready, const float *const corner[3])
 {
-    occ_contact contact;
-    uint32_t doubt;
-    if (ready->flat) return decide_flat(ready, corner);
-    if (decide_in_doubles(ready, corner, &contact, &doubt)) return contact;
-    return decide_exactly(ready, corner, doubt);
+    if (ready->flat) return flat_box_is_met(ready, corner) ? OCC_TOUCHING : OCC_APART;
+    return contact_of(ready, corner, OCC_APART);
+}
+
+bool occ_ready_box_entered(const occ_ready_box *ready, const float *const corner[3])
+{
+    return !ready->flat && contact_of(ready, corner, OCC_TOUCHING) == OCC_ENTERING;
 }
 
 bool occ_ready_box_holds(const occ_ready_box *ready, const float *point)
 {
     const float *const corner[3] = {point, point, point};
-    if (ready->flat) return decide_flat(ready, corner) != OCC_APART;
+    if (ready->flat) return flat_box_is_met(ready, corner);
     led_triangle led;
     lead(ready, corner, 1, &led);
     if (surely_inside(&led, 0)) return true;
-    if (led.most > 1.0 + led.error) return false;
-    return decide_exactly(ready, corner, 7u << AXIS_FACE) != OCC_APART;
+    contact_search search = {ready, corner, OCC_ENTERING, OCC_APART, 0};
+    if (try_faces(&search, &led, 1)) search_exactly(&search);
+    return search.contact != OCC_APART;
 }
