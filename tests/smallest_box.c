@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// O'Rourke, "Finding minimal enclosing boxes", 1985: some smallest box has a face that holds an edge
-// of the hull. For each edge the normals between those of its two faces are searched; for each
+// O'Rourke, "Finding minimal enclosing boxes", 1985: some smallest box has a face that holds an
+// edge of the hull. For each edge the normals between those of its two faces are searched; for each
 // normal the best rectangle has a side along the points' outline, and all are tried.
 #include "smallest_box.h"
 

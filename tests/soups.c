@@ -91,9 +91,9 @@ static void make_point(kit_random *random, double at[][3], uint32_t count)
 }
 
 const soups_shape soups_shapes[] = {
-    {"cloud", make_cloud, true},  {"ball", make_ball, true},    {"sphere", make_sphere, true},
-    {"box", make_box, true},      {"ring", make_ring, true},    {"stack", make_stack, true},
-    {"plane", make_plane, false}, {"line", make_line, false},   {"point", make_point, false},
+    {"cloud", make_cloud, true},  {"ball", make_ball, true},  {"sphere", make_sphere, true},
+    {"box", make_box, true},      {"ring", make_ring, true},  {"stack", make_stack, true},
+    {"plane", make_plane, false}, {"line", make_line, false}, {"point", make_point, false},
 };
 const uint32_t soups_shape_count = (uint32_t)(sizeof soups_shapes / sizeof *soups_shapes);
 

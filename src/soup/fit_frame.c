@@ -162,7 +162,7 @@ static fit fit_along(const occ_sample *sample, const double n[3])
 
 // --- where to start ------------------------------------------------------------------------------
 
-enum { STARTS = 3, FEW = 5 };
+enum { STARTS = 2, FEW = 5 };
 
 // The best fits so far, best first.
 typedef struct ranking {
@@ -324,7 +324,7 @@ static bool tilt(const occ_sample *sample, fit *best, double step)
 static void improve(const occ_sample *sample, fit *best)
 {
     look_along_sides(sample, best);
-    for (double step = 0.25; step > 0x1p-11; step *= 0.5)
+    for (double step = 0.25; step > 0x1p-9; step *= 0.5)
         for (int tries = 0; tries < 6 && tilt(sample, best, step); tries++)
             look_along_sides(sample, best);
 }
