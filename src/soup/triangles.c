@@ -136,6 +136,13 @@ static triangle_key key_of(const occ_soup *soup, uint32_t triangle)
     return key;
 }
 
+static bool same_key(const triangle_key *a, const triangle_key *b)
+{
+    for (int i = 0; i < 9; i++)
+        if (a->at[i / 3][i % 3] != b->at[i / 3][i % 3]) return false;
+    return true;
+}
+
 static size_t scatter(const triangle_key *key)
 {
     uint32_t word[9];
@@ -161,7 +168,7 @@ static bool seen_before(triangle_table *table, const occ_soup *soup, uint32_t tr
     size_t i = scatter(&key) & (table->places - 1);
     for (; table->place[i]; i = (i + 1) & (table->places - 1)) {
         triangle_key other = key_of(soup, table->place[i] - 1);
-        if (memcmp(&key, &other, sizeof key) == 0) return true;
+        if (same_key(&key, &other)) return true;
     }
     table->place[i] = triangle + 1;
     return false;
