@@ -4,7 +4,7 @@
 #ifndef OCC_TEST_CONTACT_ORACLE_H
 #define OCC_TEST_CONTACT_ORACLE_H
 
-#include "overlap.h"
+#include "soup/overlap.h"
 
 // Whether they have a point in common; `open`: one of the box's interior, which must not be flat.
 bool contact_oracle_meet(const occ_box *box, float corner[3][3], bool open);

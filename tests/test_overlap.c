@@ -3,7 +3,7 @@
 // How triangles and boxes meet, against linear inequalities in rational numbers.
 #include "contact_oracle.h"
 #include "kit.h"
-#include "overlap.h"
+#include "soup/overlap.h"
 #include "support.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 // The numbers without rounding against GMP's rationals.
 #include "steady.h"
 #include "support.h"
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <gmp.h>
 #include <math.h>

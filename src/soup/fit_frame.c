@@ -4,7 +4,7 @@
 // lies along the hull). Directions are tried from the points' axes, their spread and the
 // tetrahedra of Larsson and Kallberg; the best are improved by looking along the other sides of
 // the box found, and by tilting.
-#include "fit.h"
+#include "soup/fit.h"
 
 #include <math.h>
 #include <string.h>

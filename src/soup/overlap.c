@@ -9,9 +9,9 @@
 // by 12eQ + 20uQ^2 in sum; the triangle's normal times a corner and its reach by
 // 120eQ^2 + 312uQ^3. As long as e < 2^-10 the terms of higher order are less than what was added
 // to these in EDGE_ERROR and NORMAL_ERROR.
-#include "overlap.h"
+#include "soup/overlap.h"
 
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "triangles.h"
+#include "soup/triangles.h"
 
 #include "log.h"
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 #include <string.h>

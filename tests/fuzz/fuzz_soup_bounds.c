@@ -2,7 +2,7 @@
 // Bytes as a soup: it is refused for a reason that is there, or its bounds hold every vertex; and
 // how its triangles meet a box does not depend on how either is told.
 #include "bytes.h"
-#include "overlap.h"
+#include "soup/overlap.h"
 
 #include <occlude/occlude.h>
 
