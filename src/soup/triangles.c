@@ -210,8 +210,9 @@ static occ_result count_vertices(const occ_soup *soup, occ_hooks *hooks, occ_sou
     for (uint32_t t = 0; t < soup->triangle_count; t++) {
         for (int c = 0; c < 3; c++) {
             uint32_t v = occ_soup_index(soup, t, c);
-            counts->vertices += !(named[v / 8] >> (v % 8) & 1u);
-            named[v / 8] |= (unsigned char)(1u << (v % 8));
+            unsigned char bit = (unsigned char)(1u << (v % 8));
+            if (!(named[v / 8] & bit)) counts->vertices++;
+            named[v / 8] |= bit;
         }
     }
     occ_free(hooks, named, bytes);
