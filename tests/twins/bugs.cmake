@@ -103,7 +103,7 @@ occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
 set(own "if (shadow->owner == row) continue;")
 occ_plant(owner_scalar IN src/backend_plain.c REPLACE "${own}" BY "" COMPILE backend_plain.c)
 occ_caught_by(owner_scalar backend_edges host "plain one by one: ${decided_otherwise}")
-occ_plant(owner_lanes IN src/lanes_objects.h REPLACE "centers &= ~(1u << own)" BY "centers &= ~0u" COMPILE lanes_plain)
+occ_plant(owner_lanes IN src/lanes_objects.h REPLACE "near &= ~(1u << own)" BY "near &= ~0u" COMPILE lanes_plain)
 occ_caught_by(owner_lanes backend_edges host "openmp plain: ${decided_otherwise}")
 occ_plant(owner_node IN src/lanes_walk.h REPLACE "owner - question->first < question->rows" BY "owner - question->first < 0u * question->rows"
     COMPILE lanes_plain)
@@ -133,7 +133,8 @@ if(TARGET test_property)
     occ_caught_by(unmirrored regressions host "mirrored_axes_ignored.obs")
     occ_caught_by(unmirrored metamorphic judged "pairwise, mirrored, camera [0-3]: object [0-9]+ is")
 
-    occ_plant(area_of_its_own IN src/occluders.c COMPILE occluders.c REPLACE "shown >= least * squared * length" BY "shown >= least * 400.0 * length")
+    occ_plant(area_of_its_own IN src/occluders.c COMPILE occluders.c REPLACE "choice->least = frame->knobs.min_area;"
+        BY "choice->least = frame->knobs.min_area * 0.05f * (float)fabs(camera->eye[0]);")
     occ_caught_by(area_of_its_own metamorphic exact "single, scaled, camera [0-3]: object [0-9]+ is")
     occ_plant(odd_one_out IN src/walk.c COMPILE walk.c REPLACE "i = 0; i < count; i++)\n        if (occ_occluders_add(frame, i,"
         BY "i = count % 2 * 400; i < count; i++)\n        if (occ_occluders_add(frame, i,")
