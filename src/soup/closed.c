@@ -207,6 +207,13 @@ static void renumber(finder *f)
             c->cluster_of[cluster[i].first + p] = i;
 }
 
+#define MOST_ROWS (2 * OCC_MOST_PATCHES) // of rules not yet reduced: more than can be left of them
+
+static uint32_t rows_of(uint32_t rules)
+{
+    return rules < MOST_ROWS ? rules : MOST_ROWS;
+}
+
 // Counts the rules of each cluster, reserves room for them, and writes them in the second pass.
 static bool write_rules(finder *f)
 {
@@ -217,7 +224,7 @@ static bool write_rules(finder *f)
         for (uint32_t i = 0; pass && i < c->clusters.count; i++) {
             cluster[i].rules = words;
             if (cluster[i].count <= OCC_MOST_PATCHES)
-                words += (size_t)cluster[i].words * cluster[i].rule_count;
+                words += (size_t)cluster[i].words * rows_of(cluster[i].rule_count);
             cluster[i].rule_count = 0;
         }
         if (pass && words) {
@@ -238,7 +245,7 @@ static bool write_rules(finder *f)
                 uint32_t p = f->stack[i] - own->first;
                 row[p / 64] |= (uint64_t)1 << p % 64;
             }
-            if (pass && own->rule_count % OCC_MOST_PATCHES == 0) {
+            if (pass && own->rule_count == MOST_ROWS) {
                 uint64_t *rows = (uint64_t *)c->rules.data + own->rules;
                 occ_reduce_rules(rows, &own->rule_count, own->words);
             }

@@ -11,8 +11,7 @@
 static uint32_t lowest_bit(const uint64_t *row, uint32_t words)
 {
     for (uint32_t w = 0; w < words; w++)
-        for (uint32_t b = 0; row[w] && b < 64; b++)
-            if (row[w] >> b & 1u) return 64 * w + b;
+        if (row[w]) return 64 * w + (uint32_t)__builtin_ctzll(row[w]);
     return UINT32_MAX;
 }
 
