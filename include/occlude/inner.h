@@ -61,17 +61,17 @@ typedef struct occ_inner_box {
 
 /// How a search went.
 typedef struct occ_inner_stats {
-    occ_soup_counts counts;   ///< As occ_soup_check() gives them.
-    uint32_t open_triangles;  ///< Triangles that are in no closed part of the surface.
-    uint32_t parts;           ///< Parts of the soup whose bounds do not meet.
-    uint32_t parts_left_out;  ///< Of these, small ones that were not looked at.
-    uint32_t grids;           ///< Grids that were laid.
-    uint64_t cells;           ///< Cells of all of them.
-    uint64_t solid_cells;     ///< Of these, cells in which a box may lie.
-    uint32_t candidates;      ///< Boxes that were chosen from.
-    float silhouette;         ///< Area of the model's silhouette, mean over the directions.
-    float coverage;           ///< The share of it that the boxes cover.
-    uint64_t peak_bytes;      ///< The most memory that was allocated at any time.
+    occ_soup_counts counts;  ///< As occ_soup_check() gives them.
+    uint32_t open_triangles; ///< Triangles that are in no closed part of the surface.
+    uint32_t parts;          ///< Parts of the soup whose bounds do not meet.
+    uint32_t parts_left_out; ///< Of these, small ones that were not looked at.
+    uint32_t grids;          ///< Grids that were laid.
+    uint64_t cells;          ///< Cells of all of them.
+    uint64_t solid_cells;    ///< Of these, cells in which a box may lie.
+    uint32_t candidates;     ///< Boxes that were chosen from.
+    float silhouette;        ///< Area of the model's silhouette, mean over the directions.
+    float coverage;          ///< The share of it that the boxes cover.
+    uint64_t peak_bytes;     ///< The most memory that was allocated at any time.
 } occ_inner_stats;
 
 /// Looks for up to `capacity` boxes and writes them to `boxes`, `*count` of them, in the order of
@@ -104,9 +104,8 @@ typedef struct occ_inner_fault {
 /// `facing` and `free_points`. That no triangle enters a box is decided in exact arithmetic, and so
 /// is that closed parts of the surface lie around it. With `max_hole`, a box that is not closed off
 /// so must be dry in its own grid, which is laid and flooded again. `fault` may be NULL.
-OCC_API OCC_NODISCARD occ_result occ_verify_inner(const occ_soup *soup,
-                                                  const occ_inner_box *boxes, size_t count,
-                                                  const occ_inner_desc *desc,
+OCC_API OCC_NODISCARD occ_result occ_verify_inner(const occ_soup *soup, const occ_inner_box *boxes,
+                                                  size_t count, const occ_inner_desc *desc,
                                                   occ_inner_fault *fault);
 
 #endif

@@ -45,6 +45,7 @@
 
 #include "base.h"
 #include "cull.h"
+#include "inner.h"
 #include "scene.h"
 #include "soup.h"
 #include "version.h"

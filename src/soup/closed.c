@@ -12,10 +12,10 @@ typedef struct finder {
     occ_hooks *hooks;
     const occ_mesh *mesh;
     occ_edges edges;
-    uint32_t *left;    // for each edge: triangles that are not open
-    uint32_t *edge_at; // edges of each triangle, one after another,
+    uint32_t *left;        // for each edge: triangles that are not open
+    uint32_t *edge_at;     // edges of each triangle, one after another,
     uint32_t *edges_first; // from here
-    uint32_t *parent;  // union-find over triangles, then over patches
+    uint32_t *parent;      // union-find over triangles, then over patches
     uint32_t *stack;
     size_t triangles;
     occ_closed *closed;
@@ -237,9 +237,9 @@ static bool write_rules(finder *f)
             if (!count) continue;
             occ_cluster *own = &cluster[c->cluster_of[f->stack[0]]];
             if (own->count > OCC_MOST_PATCHES) continue;
-            uint64_t *row = pass ? (uint64_t *)c->rules.data + own->rules +
-                                       (size_t)own->words * own->rule_count
-                                 : NULL;
+            uint64_t *row =
+                pass ? (uint64_t *)c->rules.data + own->rules + (size_t)own->words * own->rule_count
+                     : NULL;
             own->rule_count++;
             for (uint32_t i = 0; pass && i < count; i++) {
                 uint32_t p = f->stack[i] - own->first;
@@ -299,8 +299,8 @@ occ_result occ_closed_build(occ_hooks *hooks, const occ_mesh *mesh, occ_closed *
     finder_free(&f);
     if (done) return OCC_SUCCESS;
     occ_closed_free(hooks, closed);
-    return occ_fail(hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for the closed parts of %u triangles",
-                    (unsigned)mesh->triangles);
+    return occ_fail(hooks, OCC_ERROR_OUT_OF_MEMORY,
+                    "no memory for the closed parts of %u triangles", (unsigned)mesh->triangles);
 }
 
 void occ_closed_free(occ_hooks *hooks, occ_closed *closed)

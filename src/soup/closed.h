@@ -22,9 +22,9 @@
 
 #include "soup/mesh.h"
 
-#define OCC_OPEN          UINT32_MAX
-#define OCC_MOST_PATCHES  2048u // of a cluster; a larger one counts as open
-#define OCC_PATCH_WORDS   (OCC_MOST_PATCHES / 64u)
+#define OCC_OPEN         UINT32_MAX
+#define OCC_MOST_PATCHES 2048u // of a cluster; a larger one counts as open
+#define OCC_PATCH_WORDS  (OCC_MOST_PATCHES / 64u)
 
 // Patches [first, first + count) that rules connect.
 typedef struct occ_cluster {
@@ -57,9 +57,11 @@ void occ_take_out_rules(const uint64_t *rows, uint32_t count, uint32_t words, ui
 
 // Where a point is. Equal marks: perhaps in one region. Different ones: apart.
 typedef struct occ_mark {
-    occ_array bits;  // uint32_t: patches, ascending
-    int32_t winding; // crossings by the back of a triangle less those by its front
-    bool known;      // false: the point is on a triangle, or every line met an edge
+    occ_array bits; // uint32_t: patches, ascending
+    // How often a line from the point leaves by the back of a triangle, less by its front: of what
+    // is in closed sets, and of all triangles.
+    int32_t winding, all_winding;
+    bool known; // false: the point is on a triangle, or every line met an edge
 } occ_mark;
 
 #define OCC_MARK ((occ_mark){.bits = OCC_ARRAY(uint32_t)})

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#define THIN_CELLS   24.0     // across the thinnest extent, if other extents can spare them
-#define MOST_ACROSS  0x1p20   // the magnitude of a coordinate, in cells
-#define MOST_CLOSING 64u      // cells
+#define THIN_CELLS   24.0   // across the thinnest extent, if other extents can spare them
+#define MOST_ACROSS  0x1p20 // the magnitude of a coordinate, in cells
+#define MOST_CLOSING 64u    // cells
 
 static double dot(const float a[3], const float p[3])
 {

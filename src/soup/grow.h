@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A box of cells becomes a box of the world, and its faces move outward until a triangle stops them.
+// A box of cells becomes a box of the world, and its faces move outward until a triangle stops
+// them.
 #ifndef OCC_SOUP_GROW_H
 #define OCC_SOUP_GROW_H
 
@@ -17,7 +18,8 @@ typedef struct occ_near_triangle {
 
 // The largest box found to hold the box of cells and no point of a triangle in its interior, which
 // is decided exactly. `*grown` is false if not even the box of cells is such a box, which may be
-// where the axes are not the world's. `room` is an array of occ_near_triangle that may be used again.
+// where the axes are not the world's. `room` is an array of occ_near_triangle that may be used
+// again.
 occ_result occ_grow_box(occ_hooks *hooks, const occ_voxels *voxels, const occ_triangles *triangles,
                         const occ_cuboid *cells, occ_array *room, occ_box *box, bool *grown);
 

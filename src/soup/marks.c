@@ -119,25 +119,28 @@ static void choose_end(const occ_mesh *mesh, const float p[3], int attempt, floa
 static bool add_crossing(occ_hooks *hooks, const occ_closed *closed, uint32_t triangle, int side,
                          occ_mark *mark)
 {
+    int32_t turn = side < 0 ? 1 : -1; // behind the triangle, it turns its back
+    mark->all_winding += turn;
+    if (closed->patch[triangle] == OCC_OPEN) return true;
+    mark->winding += turn;
     uint32_t *bit = occ_array_push(hooks, &mark->bits);
-    if (!bit) return false;
-    *bit = closed->patch[triangle];
-    mark->winding += side < 0 ? 1 : -1; // behind the triangle, it turns its back
-    return true;
+    if (bit) *bit = closed->patch[triangle];
+    return bit != NULL;
 }
 
 static occ_result cross(occ_hooks *hooks, const occ_closed *closed, const uint32_t *triangles,
                         uint32_t count, const float p[3], const float q[3], occ_mark *mark)
 {
     mark->bits.count = 0;
-    mark->winding = 0;
+    mark->winding = mark->all_winding = 0;
     mark->known = true;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t t = triangles ? triangles[i] : i;
         int side = 0;
-        if (closed->patch[t] == OCC_OPEN || bounds_apart(closed->mesh, t, p, q)) continue;
+        bool open = closed->patch[t] == OCC_OPEN;
+        if (bounds_apart(closed->mesh, t, p, q)) continue;
         meeting how = meet(closed->mesh, t, p, q, &side);
-        if (how == MISSES) continue;
+        if (how == MISSES || (open && how != CROSSES)) continue;
         if (how != CROSSES) {
             mark->known = false;
             return OCC_SUCCESS;

@@ -108,7 +108,8 @@ static bool reserve(occ_hooks *hooks, const occ_soup *soup, occ_mesh *mesh)
 
 occ_result occ_mesh_build(occ_hooks *hooks, const occ_soup *soup, occ_mesh *mesh)
 {
-    *mesh = (occ_mesh){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
+    *mesh =
+        (occ_mesh){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
     table positions = {0}, corners = {0};
     bool made = reserve(hooks, soup, mesh) && table_make(hooks, &positions, mesh->vertex_room) &&
                 table_make(hooks, &corners, mesh->triangle_room);

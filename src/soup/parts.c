@@ -65,7 +65,8 @@ static bool add_part(cutter *c, uint32_t first, uint32_t end)
 {
     occ_part *part = occ_array_push(c->hooks, c->parts);
     if (!part) return false;
-    *part = (occ_part){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
+    *part =
+        (occ_part){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
     for (uint32_t i = first; i < end; i++) {
         c->pieces[i].part = c->parts->count - 1;
         extend(part->min, part->max, c->pieces[i].min, c->pieces[i].max);
@@ -82,7 +83,7 @@ static bool cut(cutter *c, uint32_t first, uint32_t end, uint32_t axis, uint32_t
                 uint32_t depth)
 {
     static int (*const order[3])(const void *, const void *) = {by_lowest_0, by_lowest_1,
-                                                               by_lowest_2};
+                                                                by_lowest_2};
     if (end - first == 1 || vain == 3 || depth == MOST_CUTS) return add_part(c, first, end);
     qsort(c->pieces + first, end - first, sizeof *c->pieces, order[axis]);
     float reach = c->pieces[first].max[axis];
@@ -119,7 +120,8 @@ static void bound_pieces(const occ_mesh *mesh, const uint32_t *piece_of, piece *
                          uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        pieces[i] = (piece){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, i, 0};
+        pieces[i] =
+            (piece){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, i, 0};
     for (uint32_t v = 0; v < mesh->vertices; v++) {
         piece *p = &pieces[piece_of[v]];
         extend(p->min, p->max, mesh->at[v], mesh->at[v]);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 static const int8_t directions[OCC_DIRECTIONS][3] = {
-    {1, 0, 0},  {0, 1, 0}, {0, 0, 1},  {1, 1, 0}, {1, -1, 0}, {1, 0, 1},  {1, 0, -1},
+    {1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0},  {1, -1, 0}, {1, 0, 1}, {1, 0, -1},
     {0, 1, 1}, {0, 1, -1}, {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
 
 // --- pictures ------------------------------------------------------------------------------------
@@ -30,7 +30,8 @@ static void choose_axes(const int8_t direction[3], occ_picture *p)
     for (int j = 0; j < 3; j++)
         p->across[j] /= sqrt(length);
     for (int j = 0; j < 3; j++)
-        p->up[j] = d[(j + 1) % 3] * p->across[(j + 2) % 3] - d[(j + 2) % 3] * p->across[(j + 1) % 3];
+        p->up[j] =
+            d[(j + 1) % 3] * p->across[(j + 2) % 3] - d[(j + 2) % 3] * p->across[(j + 1) % 3];
 }
 
 static double dot_double(const double a[3], const double b[3])
@@ -89,23 +90,23 @@ static uint64_t bits_up_to(uint32_t last)
 static uint32_t count_new(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end)
 {
     uint32_t count = 0;
-    EACH_WORD (first, end, mask)
-        count += (uint32_t)__builtin_popcountll(model[w] & ~covered[w] & mask);
+    EACH_WORD(first, end, mask)
+    count += (uint32_t)__builtin_popcountll(model[w] & ~covered[w] & mask);
     return count;
 }
 
 static uint32_t cover_span(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end)
 {
-    EACH_WORD (first, end, mask)
-        covered[w] |= model[w] & mask;
+    EACH_WORD(first, end, mask)
+    covered[w] |= model[w] & mask;
     return 0;
 }
 
 static uint32_t draw_span(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end)
 {
     (void)covered;
-    EACH_WORD (first, end, mask)
-        model[w] |= mask;
+    EACH_WORD(first, end, mask)
+    model[w] |= mask;
     return 0;
 }
 
@@ -236,9 +237,9 @@ static void sum_model(occ_silhouette *s)
     }
 }
 
-occ_result occ_silhouette_make(occ_hooks *hooks, const occ_triangles *triangles,
-                               const float min[3], const float max[3], uint32_t side,
-                               occ_team *team, occ_silhouette *silhouette)
+occ_result occ_silhouette_make(occ_hooks *hooks, const occ_triangles *triangles, const float min[3],
+                               const float max[3], uint32_t side, occ_team *team,
+                               occ_silhouette *silhouette)
 {
     occ_silhouette *s = silhouette;
     *s = (occ_silhouette){0};

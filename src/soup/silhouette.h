@@ -26,9 +26,9 @@ typedef struct occ_silhouette {
 } occ_silhouette;
 
 // Draws the triangles of a part. `side` is the length of the longer edge of a picture in pixels.
-occ_result occ_silhouette_make(occ_hooks *hooks, const occ_triangles *triangles,
-                               const float min[3], const float max[3], uint32_t side,
-                               occ_team *team, occ_silhouette *silhouette);
+occ_result occ_silhouette_make(occ_hooks *hooks, const occ_triangles *triangles, const float min[3],
+                               const float max[3], uint32_t side, occ_team *team,
+                               occ_silhouette *silhouette);
 
 // The area that a box would cover anew, as a mean over the directions.
 double occ_silhouette_gain(const occ_silhouette *silhouette, const occ_box *box);

@@ -25,14 +25,12 @@ static void thicken_line(const occ_voxels *v, size_t first, int axis, uint8_t bi
     size_t step = v->step[axis];
     for (uint32_t i = 0; i < count; i++) {
         if (v->state[first + i * step] & bits) last = i;
-        if (last != UINT32_MAX && i - last <= reach)
-            v->state[first + i * step] |= OCC_CELL_SEEN;
+        if (last != UINT32_MAX && i - last <= reach) v->state[first + i * step] |= OCC_CELL_SEEN;
     }
     last = UINT32_MAX;
     for (uint32_t i = count; i-- > 0;) {
         if (v->state[first + i * step] & bits) last = i;
-        if (last != UINT32_MAX && last - i <= reach)
-            v->state[first + i * step] |= OCC_CELL_SEEN;
+        if (last != UINT32_MAX && last - i <= reach) v->state[first + i * step] |= OCC_CELL_SEEN;
     }
 }
 
@@ -65,8 +63,8 @@ static uint32_t push_reached(const occ_voxels *v, uint32_t cell, uint32_t end, u
 }
 
 // Goes on from the cells work[0, end) to their neighbours, until there are no more or `steps` are
-// done. The first `outermost` cells of the list are all those that lack a neighbour. Returns the new
-// end.
+// done. The first `outermost` cells of the list are all those that lack a neighbour. Returns the
+// new end.
 static uint32_t spread(const occ_voxels *v, uint32_t outermost, uint32_t end, uint32_t steps,
                        uint8_t walls)
 {

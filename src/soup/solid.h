@@ -47,8 +47,8 @@ static inline uint32_t occ_solid_count(const occ_voxels *v, const uint32_t low[3
            y1 = (high[1] - 1u) * v->step[1], z0 = (low[2] - 1u) * v->step[2],
            z1 = (high[2] - 1u) * v->step[2];
     const uint32_t *s = v->work;
-    return s[x1 + y1 + z1] - s[x0 + y1 + z1] - s[x1 + y0 + z1] - s[x1 + y1 + z0] +
-           s[x0 + y0 + z1] + s[x0 + y1 + z0] + s[x1 + y0 + z0] - s[x0 + y0 + z0];
+    return s[x1 + y1 + z1] - s[x0 + y1 + z1] - s[x1 + y0 + z1] - s[x1 + y1 + z0] + s[x0 + y0 + z1] +
+           s[x0 + y1 + z0] + s[x1 + y0 + z0] - s[x0 + y0 + z0];
 }
 
 #endif

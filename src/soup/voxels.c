@@ -71,7 +71,7 @@ bool occ_voxels_set(occ_voxels *voxels, const occ_inner_grid *grid)
             rows[k][j] = (double)grid->axis[k][j] / (double)grid->cell[k];
         }
     }
-    if (grid->closing > 1024 || !invert(rows, inverse)) return false;
+    if (grid->closing > 1024 || !invert((const double(*)[3])rows, inverse)) return false;
     voxels->grid = *grid;
     memcpy(voxels->inverse, inverse, sizeof inverse);
     voxels->count = (uint32_t)count;
@@ -120,6 +120,19 @@ void occ_voxels_lead_back(const occ_voxels *voxels, const double at[3], double o
         for (int k = 0; k < 3; k++)
             out[j] += voxels->inverse[j][k] * (at[k] + (double)voxels->grid.origin[k]);
     }
+}
+
+bool occ_voxels_are_near(const occ_voxels *voxels, const occ_mesh *mesh)
+{
+    for (int k = 0; k < 3; k++) {
+        double most = 0.0;
+        for (int j = 0; j < 3; j++) {
+            double reach = fmax(fabs((double)mesh->min[j]), fabs((double)mesh->max[j]));
+            most += fabs((double)voxels->grid.axis[k][j]) * reach;
+        }
+        if (!(most / (double)voxels->grid.cell[k] < 0x1p24)) return false;
+    }
+    return true;
 }
 
 // --- which cells a triangle touches --------------------------------------------------------------
@@ -171,8 +184,8 @@ static void set_normal(marker *m, const double p[3][3])
     m->high = -INFINITY;
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-        m->normal[k] = (p[1][i] - p[0][i]) * (p[2][j] - p[0][j]) -
-                       (p[1][j] - p[0][j]) * (p[2][i] - p[0][i]);
+        m->normal[k] =
+            (p[1][i] - p[0][i]) * (p[2][j] - p[0][j]) - (p[1][j] - p[0][j]) * (p[2][i] - p[0][i]);
         reach += (0.5 + MARGIN) * fabs(m->normal[k]);
         if (fabs(m->normal[k]) <= most) continue;
         most = fabs(m->normal[k]);
@@ -278,7 +291,7 @@ static void mark_some(void *context, uint32_t part)
         double p[3][3];
         for (int c = 0; c < 3; c++)
             occ_voxels_lead(job->voxels, occ_mesh_corner(t->mesh, occ_triangle_at(t, i), c), p[c]);
-        mark_triangle(job->voxels, p);
+        mark_triangle(job->voxels, (const double(*)[3])p);
     }
 }
 

@@ -50,6 +50,9 @@ bool occ_grid_plan(const occ_triangles *triangles, const float axis[3][3], uint3
 // Makes ready for a grid, which may come from anywhere. False: it makes no sense.
 bool occ_voxels_set(occ_voxels *voxels, const occ_inner_grid *grid);
 
+// Whether the mesh is so near the grid, in cells, that no rounding matters. Planned grids are.
+bool occ_voxels_are_near(const occ_voxels *voxels, const occ_mesh *mesh);
+
 // Room for a grid's cells.
 occ_result occ_voxels_reserve(occ_hooks *hooks, occ_voxels *voxels);
 
