@@ -26,17 +26,26 @@ static double cells_along(double extent, double edge)
     return floor(extent / edge) + 6.0; // two are begun, and two lie outside at each end
 }
 
+// The cube root, rounded down. (cbrt() may differ from one C library to the next.)
+static double cube_root(double most)
+{
+    double root = 1.0;
+    while ((root + 1.0) * (root + 1.0) * (root + 1.0) <= most)
+        root += 1.0;
+    return root;
+}
+
 // Edges of cells for an extent, `most` in all: cubes, but thin extents get THIN_CELLS.
 static bool choose_edges(const double extent[3], const double least[3], double most, double edge[3])
 {
-    double longest = fmax(extent[0], fmax(extent[1], extent[2]));
+    double longest = occ_most(extent[0], occ_most(extent[1], extent[2]));
     if (!(longest > 0.0)) return false;
-    double size = longest / cbrt(most);
+    double size = longest / cube_root(most), thin = occ_least(THIN_CELLS, cube_root(most) / 3.0);
     for (int step = 0; step < 400; step++, size *= 1.0 + 0x1p-5) {
         double count = 1.0;
         for (int k = 0; k < 3; k++) {
-            double own = fmin(size, extent[k] / THIN_CELLS);
-            edge[k] = round_edge(fmax(fmax(own, least[k]), longest * 0x1p-20));
+            double own = occ_least(size, extent[k] / thin);
+            edge[k] = round_edge(occ_most(occ_most(own, least[k]), longest * 0x1p-20));
             count *= cells_along(extent[k], edge[k]);
         }
         if (count <= most) return true;
@@ -56,8 +65,8 @@ static void frame_extent(const occ_triangles *t, const float axis[3][3], double 
             const float *p = occ_mesh_corner(t->mesh, occ_triangle_at(t, i), c);
             for (int k = 0; k < 3; k++) {
                 double at = dot(axis[k], p);
-                low[k] = fmin(low[k], at);
-                high[k] = fmax(high[k], at);
+                low[k] = occ_least(low[k], at);
+                high[k] = occ_most(high[k], at);
             }
         }
 }
@@ -83,7 +92,7 @@ bool occ_grid_plan(const occ_triangles *triangles, const float axis[3][3], uint3
     frame_extent(triangles, axis, low, high);
     for (int k = 0; k < 3; k++) {
         extent[k] = high[k] - low[k];
-        least[k] = fmax(fabs(low[k]), fabs(high[k])) / MOST_ACROSS;
+        least[k] = occ_most(fabs(low[k]), fabs(high[k])) / MOST_ACROSS;
     }
     if (!choose_edges(extent, least, (double)most, edge)) return false;
     *grid = (occ_inner_grid){0};

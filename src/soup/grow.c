@@ -133,7 +133,7 @@ static bool move_face(grower *g, int face, double step)
 {
     int k = face / 2;
     double from = face % 2 ? g->high[k] : g->low[k];
-    double to = face % 2 ? fmin(from + step, g->most[k]) : fmax(from - step, g->least[k]);
+    double to = face % 2 ? occ_least(from + step, g->most[k]) : occ_most(from - step, g->least[k]);
     const occ_near_triangle *stopper;
     if (fabs(to - from) < LEAST_STEP) return false;
     if (try_face(g, face, to, &stopper)) return true;
@@ -169,8 +169,8 @@ static occ_result gather_near(occ_hooks *hooks, const occ_voxels *v, const occ_t
             double at[3];
             occ_voxels_lead(v, occ_mesh_corner(t->mesh, n.triangle, c), at);
             for (int k = 0; k < 3; k++) {
-                n.low[k] = fmin(n.low[k], at[k]);
-                n.high[k] = fmax(n.high[k], at[k]);
+                n.low[k] = occ_least(n.low[k], at[k]);
+                n.high[k] = occ_most(n.high[k], at[k]);
             }
         }
         for (int k = 0; k < 3; k++)

@@ -22,6 +22,17 @@ occ_result occ_mesh_build(occ_hooks *hooks, const occ_soup *soup, occ_mesh *mesh
 
 void occ_mesh_free(occ_hooks *hooks, occ_mesh *mesh);
 
+// fmin() and fmax() mind NaN, and are calls.
+static inline double occ_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double occ_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static inline const float *occ_mesh_corner(const occ_mesh *mesh, uint32_t triangle, int i)
 {
     return mesh->at[mesh->corner[triangle][i]];

@@ -49,11 +49,11 @@ static void fit_picture(occ_picture *p, const float min[3], const float max[3], 
             corner[k] = (double)(c >> k & 1 ? max[k] : min[k]);
         double at[2] = {dot_double(p->across, corner), dot_double(p->up, corner)};
         for (int i = 0; i < 2; i++) {
-            low[i] = fmin(low[i], at[i]);
-            high[i] = fmax(high[i], at[i]);
+            low[i] = occ_least(low[i], at[i]);
+            high[i] = occ_most(high[i], at[i]);
         }
     }
-    double longest = fmax(high[0] - low[0], high[1] - low[1]);
+    double longest = occ_most(high[0] - low[0], high[1] - low[1]);
     double edge = longest > 0.0 ? longest / (side - 2.0) : 1.0;
     for (int k = 0; k < 3; k++) {
         p->across[k] /= edge;
@@ -123,8 +123,8 @@ static uint32_t fill(const occ_silhouette *s, const occ_picture *p, const double
     double low = INFINITY, high = -INFINITY;
     uint32_t sum = 0;
     for (int i = 0; i < corners; i++) {
-        low = fmin(low, corner[i][1]);
-        high = fmax(high, corner[i][1]);
+        low = occ_least(low, corner[i][1]);
+        high = occ_most(high, corner[i][1]);
     }
     uint32_t end = clip_pixel(high, p->height);
     for (uint32_t y = clip_pixel(low, p->height); y < end; y++) {
@@ -133,8 +133,8 @@ static uint32_t fill(const occ_silhouette *s, const occ_picture *p, const double
             const double *a = corner[i], *b = corner[i + 1 < corners ? i + 1 : 0];
             if ((a[1] <= middle) == (b[1] <= middle)) continue;
             double x = a[0] + (middle - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-            from = fmin(from, x);
-            to = fmax(to, x);
+            from = occ_least(from, x);
+            to = occ_most(to, x);
         }
         uint32_t first = clip_pixel(from, p->width), last = clip_pixel(to, p->width);
         size_t row = p->first + (size_t)y * (p->width / 64);

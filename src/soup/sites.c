@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MOST_SITES 256u // parts that are looked at: the largest
+#define MOST_SITES 256u       // parts that are looked at: the largest
+#define SITE_CELLS (1u << 15) // of a small part, where the caller allows as many
 
 // A part and the area of its bounds.
 typedef struct sized_part {
@@ -61,7 +62,8 @@ static occ_result add_site(occ_search *s, const occ_part *part, double share, ui
     if (!site) return OCC_ERROR_OUT_OF_MEMORY;
     double cells = share * (double)s->desc->max_cells;
     *site = (occ_site){.triangles = {&s->mesh, s->parts.triangle + part->first, part->count}};
-    site->most_cells = cells < (double)OCC_LEAST_CELLS ? OCC_LEAST_CELLS : (uint32_t)cells;
+    site->most_cells = cells < SITE_CELLS ? SITE_CELLS : (uint32_t)cells;
+    if (site->most_cells > s->desc->max_cells) site->most_cells = s->desc->max_cells;
     site->has_closed = has_closed(&s->closed, &site->triangles);
     occ_result result = occ_silhouette_make(s->hooks, &site->triangles, part->min, part->max, side,
                                             team, &site->silhouette);

@@ -43,7 +43,7 @@ static double cell_width(const occ_voxels *v)
                        (turn & 2 ? -1.0 : 1.0) * v->inverse[j][2];
             sum += d * d;
         }
-        most = fmax(most, sqrt(sum));
+        most = occ_most(most, sqrt(sum));
     }
     return most * (1.0 + 0x1p-12); // margins and the rounding of axes included
 }
@@ -127,7 +127,7 @@ bool occ_voxels_are_near(const occ_voxels *voxels, const occ_mesh *mesh)
     for (int k = 0; k < 3; k++) {
         double most = 0.0;
         for (int j = 0; j < 3; j++) {
-            double reach = fmax(fabs((double)mesh->min[j]), fabs((double)mesh->max[j]));
+            double reach = occ_most(fabs((double)mesh->min[j]), fabs((double)mesh->max[j]));
             most += fabs((double)voxels->grid.axis[k][j]) * reach;
         }
         if (!(most / (double)voxels->grid.cell[k] < 0x1p24)) return false;
@@ -167,8 +167,8 @@ static stripe make_stripe(const double p[3][3], int edge, int u, int v)
     stripe s = {a[v] - b[v], b[u] - a[u], INFINITY, -INFINITY};
     for (int i = 0; i < 3; i++) {
         double at = s.u * p[i][u] + s.v * p[i][v];
-        s.low = fmin(s.low, at);
-        s.high = fmax(s.high, at);
+        s.low = occ_least(s.low, at);
+        s.high = occ_most(s.high, at);
     }
     double reach = (0.5 + MARGIN) * (fabs(s.u) + fabs(s.v));
     s.low -= reach;
@@ -195,8 +195,8 @@ static void set_normal(marker *m, const double p[3][3])
         double at = 0.0;
         for (int k = 0; k < 3; k++)
             at += m->normal[k] * p[i][k];
-        m->low = fmin(m->low, at);
-        m->high = fmax(m->high, at);
+        m->low = occ_least(m->low, at);
+        m->high = occ_most(m->high, at);
     }
     m->low -= reach;
     m->high += reach;
@@ -220,7 +220,7 @@ static void plane_range(const marker *m, const double middle[3], int32_t *first,
     if (m->normal[w] == 0.0) return;
     double base = m->normal[u] * middle[u] + m->normal[v] * middle[v];
     double a = (m->low - base) / m->normal[w], b = (m->high - base) / m->normal[w];
-    double low = ceil(fmin(a, b) - 0.5 - MARGIN), high = floor(fmax(a, b) - 0.5 + MARGIN);
+    double low = ceil(occ_least(a, b) - 0.5 - MARGIN), high = floor(occ_most(a, b) - 0.5 + MARGIN);
     if (low > *first) *first = low > *last ? *last + 1 : (int32_t)low;
     if (high < *last) *last = high < *first ? *first - 1 : (int32_t)high;
 }
@@ -250,8 +250,8 @@ static void mark_triangle(const occ_voxels *voxels, const double p[3][3])
     marker m = {.voxels = voxels};
     int32_t cells = 1;
     for (int k = 0; k < 3; k++) {
-        double low = fmin(p[0][k], fmin(p[1][k], p[2][k]));
-        double high = fmax(p[0][k], fmax(p[1][k], p[2][k]));
+        double low = occ_least(p[0][k], occ_least(p[1][k], p[2][k]));
+        double high = occ_most(p[0][k], occ_most(p[1][k], p[2][k]));
         clip_range(voxels, k, low, high, &m.first[k], &m.last[k]);
         if (m.first[k] > m.last[k]) return;
         if (m.first[k] != m.last[k]) cells = 2;
