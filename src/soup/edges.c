@@ -4,12 +4,13 @@
 #include "log.h"
 #include "soup/sides.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_LOOKS ((uint64_t)1 << 28) // at corners that may lie on edges; what is left stays open
+#define MOST_LOOKS ((uint64_t)1 << 28) // for vertices on edges; what is left then stays uncut
 
-// A corner on the inside of an edge. Lists of them are sorted by edge, then from low to high.
+// A vertex on the inside of an edge. Lists of them are sorted by edge, then from low to high.
 typedef struct cut {
     uint32_t low, high, middle;
     double along; // from low
@@ -141,48 +142,68 @@ void occ_edges_free(occ_hooks *hooks, occ_edges *edges)
     *edges = (occ_edges){0};
 }
 
-// --- corners on edges ----------------------------------------------------------------------------
+// --- vertices on edges ---------------------------------------------------------------------------
 
-// The ends of open edges, in order along one axis.
-typedef struct place {
-    float at;
-    uint32_t vertex;
-} place;
-
-static int by_place(const void *a, const void *b)
-{
-    const place *p = a, *q = b;
-    if (p->at != q->at) return p->at < q->at ? -1 : 1;
-    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
-}
-
+// The vertices, sorted into the cells of a grid: those of cell c are vertex[first[c]] up to
+// vertex[first[c + 1]].
 typedef struct seeker {
     occ_hooks *hooks;
     const occ_mesh *mesh;
-    place *places[3];
-    uint32_t count; // of places along each axis
+    double scale; // cells for each unit
+    uint32_t size[3], cells;
+    uint32_t *first, *vertex;
     uint64_t looks;
     occ_array *cuts;
 } seeker;
 
-static bool is_open(const occ_edges *edges, uint32_t e)
+// Which cell a coordinate is in. It never falls where the coordinate rises.
+static uint32_t cell_along(const seeker *s, int k, float at)
 {
-    return ((edges->first[e + 1] - edges->first[e]) & 1u) != 0;
+    double cell = ((double)at - (double)s->mesh->min[k]) * s->scale;
+    return cell < (double)(s->size[k] - 1) ? (uint32_t)cell : s->size[k] - 1;
 }
 
-// The first place that is not below `value`.
-static uint32_t first_place(const place *places, uint32_t count, float value)
+static uint32_t cell_of(const seeker *s, const float p[3])
 {
-    uint32_t first = 0, end = count;
-    while (first < end) {
-        uint32_t middle = first + (end - first) / 2;
-        if (places[middle].at < value) {
-            first = middle + 1;
-        } else {
-            end = middle;
+    uint32_t z = cell_along(s, 2, p[2]) * s->size[1];
+    return (z + cell_along(s, 1, p[1])) * s->size[0] + cell_along(s, 0, p[0]);
+}
+
+// Cubes, about as many as there are vertices, as fine as if these lay in a plane or finer.
+static void choose_cells(seeker *s)
+{
+    double longest = 0.0, count = (double)s->mesh->vertices;
+    for (int k = 0; k < 3; k++)
+        longest = occ_most(longest, (double)s->mesh->max[k] - (double)s->mesh->min[k]);
+    double fine = sqrt(count);
+    for (bool fits = false; !fits; fine *= 0.9) {
+        double cells = 1.0;
+        s->scale = longest > 0.0 ? fine / longest : 0.0;
+        for (int k = 0; k < 3; k++) {
+            double extent = (double)s->mesh->max[k] - (double)s->mesh->min[k];
+            s->size[k] = (uint32_t)(extent * s->scale) + 1;
+            cells *= (double)s->size[k];
         }
+        fits = cells <= 2.0 * count + 1.0;
+        s->cells = fits ? (uint32_t)cells : 0;
     }
-    return first;
+}
+
+static bool sort_vertices(seeker *s)
+{
+    choose_cells(s);
+    s->first = occ_alloc(s->hooks, (s->cells + (size_t)2) * sizeof *s->first);
+    s->vertex = occ_alloc(s->hooks, s->mesh->vertices * sizeof *s->vertex);
+    if (!s->first || !s->vertex) return false;
+    memset(s->first, 0, (s->cells + (size_t)2) * sizeof *s->first);
+    // Counted two places on, so that filling leaves each at where its cell begins.
+    for (uint32_t v = 0; v < s->mesh->vertices; v++)
+        s->first[cell_of(s, s->mesh->at[v]) + 2]++;
+    for (uint32_t c = 0; c < s->cells; c++)
+        s->first[c + 2] += s->first[c + 1];
+    for (uint32_t v = 0; v < s->mesh->vertices; v++)
+        s->vertex[s->first[cell_of(s, s->mesh->at[v]) + 1]++] = v;
+    return true;
 }
 
 static bool add_cut(seeker *s, uint32_t low, uint32_t high, uint32_t middle)
@@ -198,75 +219,44 @@ static bool add_cut(seeker *s, uint32_t low, uint32_t high, uint32_t middle)
     return c != NULL;
 }
 
-// Finds the ends of other open edges that lie on this one, along the axis on which fewest may.
-static bool cut_edge(seeker *s, uint32_t low, uint32_t high)
+static bool cut_in_cell(seeker *s, uint32_t cell, uint32_t low, uint32_t high)
 {
     const float *a = s->mesh->at[low], *b = s->mesh->at[high];
-    uint32_t best = 0, first = 0, fewest = UINT32_MAX;
-    for (uint32_t k = 0; k < 3; k++) {
-        float from = a[k] < b[k] ? a[k] : b[k], to = a[k] < b[k] ? b[k] : a[k];
-        uint32_t start = first_place(s->places[k], s->count, from), end = start;
-        uint32_t past = first_place(s->places[k], s->count, to);
-        for (end = past; end < s->count && s->places[k][end].at == to; end++)
-            s->looks++;
-        if (end - start >= fewest) continue;
-        fewest = end - start;
-        best = k;
-        first = start;
-    }
-    for (uint32_t i = 0; i < fewest && s->looks < MOST_LOOKS; i++, s->looks++) {
-        uint32_t v = s->places[best][first + i].vertex;
-        if (occ_between(a, b, s->mesh->at[v]) && !add_cut(s, low, high, v)) return false;
-    }
+    s->looks++;
+    for (uint32_t i = s->first[cell]; i < s->first[cell + 1]; i++, s->looks++)
+        if (occ_between(a, b, s->mesh->at[s->vertex[i]]) && !add_cut(s, low, high, s->vertex[i]))
+            return false;
     return true;
 }
 
-// Notes every vertex of an open edge once.
-static void gather_places(seeker *s, const occ_edges *edges, uint8_t *seen)
+// Finds the vertices that lie on an edge.
+static bool cut_edge(seeker *s, uint32_t low, uint32_t high)
 {
-    for (uint32_t e = 0; e < edges->count; e++) {
-        if (!is_open(edges, e)) continue;
-        const occ_edge_use *u = &edges->use[edges->first[e]];
-        for (int i = 0; i < 2; i++) {
-            uint32_t v = i ? u->high : u->low;
-            if (seen[v]) continue;
-            seen[v] = 1;
-            for (int k = 0; k < 3; k++)
-                s->places[k][s->count] = (place){s->mesh->at[v][k], v};
-            s->count++;
-        }
+    const float *a = s->mesh->at[low], *b = s->mesh->at[high];
+    uint32_t from[3], to[3];
+    for (int k = 0; k < 3; k++) {
+        from[k] = cell_along(s, k, a[k] < b[k] ? a[k] : b[k]);
+        to[k] = cell_along(s, k, a[k] < b[k] ? b[k] : a[k]);
     }
-    for (int k = 0; k < 3; k++)
-        qsort(s->places[k], s->count, sizeof(place), by_place);
+    for (uint32_t z = from[2]; z <= to[2]; z++)
+        for (uint32_t y = from[1]; y <= to[1]; y++)
+            for (uint32_t x = from[0]; x <= to[0] && s->looks < MOST_LOOKS; x++)
+                if (!cut_in_cell(s, (z * s->size[1] + y) * s->size[0] + x, low, high)) return false;
+    return true;
 }
 
 static occ_result find_cuts(occ_hooks *hooks, const occ_mesh *mesh, const occ_edges *edges,
                             occ_array *cuts)
 {
-    uint32_t open = 0;
-    for (uint32_t e = 0; e < edges->count; e++)
-        open += is_open(edges, e);
-    if (!open) return OCC_SUCCESS;
-    size_t room = 2 * (size_t)open < mesh->vertices ? 2 * (size_t)open : mesh->vertices;
     seeker s = {.hooks = hooks, .mesh = mesh, .cuts = cuts};
-    uint8_t *seen = occ_alloc(hooks, mesh->vertices);
-    bool fits = seen != NULL;
-    for (int k = 0; k < 3; k++) {
-        s.places[k] = occ_alloc(hooks, room * sizeof(place));
-        fits = fits && s.places[k];
-    }
-    if (fits) {
-        memset(seen, 0, mesh->vertices);
-        gather_places(&s, edges, seen);
-    }
+    bool fits = sort_vertices(&s);
     for (uint32_t e = 0; fits && e < edges->count && s.looks < MOST_LOOKS; e++) {
         const occ_edge_use *u = &edges->use[edges->first[e]];
-        if (is_open(edges, e)) fits = cut_edge(&s, u->low, u->high);
+        fits = cut_edge(&s, u->low, u->high);
     }
     if (fits && cuts->count) qsort(cuts->data, cuts->count, sizeof(cut), by_edge);
-    for (int k = 0; k < 3; k++)
-        occ_free(hooks, s.places[k], room * sizeof(place));
-    occ_free(hooks, seen, mesh->vertices);
+    occ_free(hooks, s.first, (s.cells + (size_t)2) * sizeof *s.first);
+    occ_free(hooks, s.vertex, mesh->vertices * sizeof *s.vertex);
     return fits ? OCC_SUCCESS : OCC_ERROR_OUT_OF_MEMORY;
 }
 
