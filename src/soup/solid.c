@@ -290,20 +290,42 @@ occ_result occ_solid_settle(occ_hooks *hooks, occ_voxels *voxels, occ_solid_judg
     return result;
 }
 
-bool occ_solid_at(const occ_voxels *voxels, const float point[3])
+// The cells [low, high) that a box may hold the middle of.
+static void cells_around(const occ_voxels *v, const occ_box *box, uint32_t low[3], uint32_t high[3])
 {
-    double at[3];
-    occ_voxels_lead(voxels, point, at);
-    for (int i = 0; i < 8; i++) {
-        uint32_t cell[3];
-        for (int k = 0; k < 3; k++) {
-            double near = floor(at[k] + (i >> k & 1 ? 0x1p-16 : -0x1p-16));
-            if (!(near >= 0.0 && near < (double)voxels->grid.size[k])) return false;
-            cell[k] = (uint32_t)near;
+    double middle[3];
+    occ_voxels_lead(v, box->center, middle);
+    for (int k = 0; k < 3; k++) {
+        double reach = 0.5, most = (double)v->grid.size[k];
+        for (int i = 0; i < 3; i++) {
+            double along = 0.0;
+            for (int j = 0; j < 3; j++)
+                along += (double)v->grid.axis[k][j] * (double)box->axis[i][j];
+            reach += fabs(along) / (double)v->grid.cell[k];
         }
-        if (!is_solid(voxels->state[occ_cell_at(voxels, cell)])) return false;
+        double first = floor(middle[k] - reach), end = floor(middle[k] + reach) + 1.0;
+        low[k] = (uint32_t)(first > 0.0 ? occ_least(first, most) : 0.0);
+        high[k] = (uint32_t)(end > 0.0 ? occ_least(end, most) : 0.0);
     }
-    return true;
+}
+
+bool occ_solid_meets(const occ_voxels *voxels, const occ_ready_box *box)
+{
+    uint32_t low[3], high[3], at[3];
+    cells_around(voxels, &box->box, low, high);
+    for (at[2] = low[2]; at[2] < high[2]; at[2]++)
+        for (at[1] = low[1]; at[1] < high[1]; at[1]++)
+            for (at[0] = low[0]; at[0] < high[0]; at[0]++) {
+                double middle[3], world[3];
+                if (!is_solid(voxels->state[occ_cell_at(voxels, at)])) continue;
+                for (int k = 0; k < 3; k++)
+                    middle[k] = at[k] + 0.5;
+                occ_voxels_lead_back(voxels, middle, world);
+                // Far less off by rounding than half a cell.
+                float point[3] = {(float)world[0], (float)world[1], (float)world[2]};
+                if (occ_ready_box_holds(box, point)) return true;
+            }
+    return false;
 }
 
 uint32_t occ_solid_sum(occ_voxels *voxels)

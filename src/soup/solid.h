@@ -3,6 +3,7 @@
 #ifndef OCC_SOUP_SOLID_H
 #define OCC_SOUP_SOLID_H
 
+#include "soup/overlap.h"
 #include "soup/voxels.h"
 
 // Floods the free cells from the outermost ones and from those around the points given. With
@@ -30,9 +31,9 @@ typedef occ_result (*occ_solid_judge)(void *context, const occ_voxels *voxels, u
 occ_result occ_solid_settle(occ_hooks *hooks, occ_voxels *voxels, occ_solid_judge judge,
                             void *context);
 
-// Whether the cell at a point, and every cell that the point may be in for rounding, is solid.
-// After the flood.
-bool occ_solid_at(const occ_voxels *voxels, const float point[3]);
+// Whether a box, which no triangle enters, holds the middle of a solid cell: then all of it is in
+// that cell's region of space. After the flood.
+bool occ_solid_meets(const occ_voxels *voxels, const occ_ready_box *box);
 
 // Makes of `work` the number of solid cells from the first cell to each, in all three directions.
 // After the settling. Returns the number of all of them.

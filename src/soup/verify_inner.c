@@ -95,8 +95,9 @@ static occ_result ask_flood(verify_call *call, size_t first, occ_voxels *voxels,
     for (size_t i = first; i < call->count; i++) {
         if (call->verdicts[i].asked || !same_grid(&call->boxes[i].grid, grid)) continue;
         call->verdicts[i].asked = true;
-        if (!good || !occ_solid_at(voxels, call->boxes[i].box.center)) continue;
-        call->verdicts[i].reason = OCC_INNER_SOUND;
+        occ_ready_box ready;
+        occ_ready_box_make(&call->boxes[i].box, &ready);
+        if (good && occ_solid_meets(voxels, &ready)) call->verdicts[i].reason = OCC_INNER_SOUND;
     }
     return OCC_SUCCESS;
 }
