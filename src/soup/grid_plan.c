@@ -99,6 +99,7 @@ bool occ_grid_plan(const occ_triangles *triangles, const float axis[3][3], uint3
     memcpy(grid->axis, axis, sizeof grid->axis);
     for (int k = 0; k < 3; k++) {
         grid->cell[k] = (float)edge[k];
+        if ((double)grid->cell[k] != edge[k]) return false; // less than floats can say
         // What lies in the boundary of a cell touches the next one too; beyond that is free space.
         grid->origin[k] = (int32_t)floor(low[k] / edge[k]) - 2;
         grid->size[k] = (uint32_t)((int32_t)floor(high[k] / edge[k]) + 3 - grid->origin[k]);

@@ -9,7 +9,7 @@
 
 #define REACH       3.0    // cells that a face may move
 #define LEAST_STEP  0x1p-8 // cells
-#define NEAR_MARGIN 0x1p-8 // cells; extents of triangles are far more precise
+#define NEAR_MARGIN 0.25   // cells; where cells are smallest, floats are 2^-5 of one apart
 
 // --- from cells to the world ---------------------------------------------------------------------
 
@@ -187,11 +187,11 @@ static occ_result gather_near(occ_hooks *hooks, const occ_voxels *v, const occ_t
 static bool start(grower *g)
 {
     const occ_near_triangle *stopper;
-    for (int i = 0; i < 4; i++) {
+    for (double shrink = 0x1p-6; shrink <= 0x1p-3; shrink *= 2.0) {
         if (is_free(g, g->low, g->high, &g->box, &stopper)) return true;
         for (int k = 0; k < 3; k++) {
-            g->low[k] += 0x1p-6;
-            g->high[k] -= 0x1p-6;
+            g->low[k] += shrink;
+            g->high[k] -= shrink;
         }
     }
     return false;
