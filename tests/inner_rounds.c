@@ -75,7 +75,8 @@ static bool has_twin(const shapes *s, uint32_t triangle)
     for (uint32_t t = 0; t < s->triangles; t++) {
         int same = 0;
         for (uint32_t i = 0; i < 9 && t != triangle; i++)
-            same += !memcmp(s->at[3 * t + i / 3], s->at[3 * triangle + i % 3], sizeof s->at[0]);
+            same +=
+                kit_same_bits(s->at[3 * t + i / 3], s->at[3 * triangle + i % 3], sizeof s->at[0]);
         if (same >= 3) return true;
     }
     return false;

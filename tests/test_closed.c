@@ -224,15 +224,22 @@ START_TEST(cells_are_closed_off_exactly_if_no_way_leads_there)
 }
 END_TEST
 
+static uint64_t few_bits(kit_random *random)
+{
+    uint64_t bits = kit_next(random);
+    bits &= kit_next(random);
+    return bits & kit_next(random);
+}
+
 START_TEST(rules_that_are_sums_of_others_are_dropped)
 {
     kit_random random = {5};
     for (int round = 0; round < 2000; round++) {
         uint32_t words = 1 + kit_below(&random, 3), count = 1 + kit_below(&random, 12),
                  left = count;
-        uint64_t rows[12 * 3], kept[12 * 3], sum[3] = {0};
+        uint64_t rows[12 * 3] = {0}, kept[12 * 3] = {0}, sum[3] = {0};
         for (uint32_t i = 0; i < count * words; i++)
-            rows[i] = kept[i] = kit_next(&random) & kit_next(&random) & kit_next(&random);
+            rows[i] = kept[i] = few_bits(&random);
         for (uint32_t r = 2; r < count; r += 3) // the sum of the two before it
             for (uint32_t w = 0; w < words; w++)
                 rows[r * words + w] = kept[r * words + w] =

@@ -253,7 +253,7 @@ START_TEST(flood_reaches_what_it_can)
     uint32_t dry = 0;
     for (int round = 0; round < 400; round++) {
         random_grid(&random, &v, round % 3 ? 0 : 1 + kit_below(&random, 3));
-        uint8_t *touched = malloc(v.count), *reached = malloc(v.count);
+        uint8_t *touched = malloc(v.count), *reached = calloc(v.count, 1);
         ck_assert(touched && reached);
         memcpy(touched, v.state, v.count);
         slow_flood(&v, touched, reached);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edges of a mesh and the triangles at each. Where a vertex lies on an edge, exactly, the edge is
-// cut: there the neighbours have shorter ones.
+// The edges of a mesh and the triangles at each. Where a vertex lies on an edge, exactly, the edge
+// is cut: there the neighbours have shorter ones.
 #ifndef OCC_SOUP_EDGES_H
 #define OCC_SOUP_EDGES_H
 

@@ -146,13 +146,15 @@ static bool move_face(grower *g, int face, double step)
 
 static void move_faces(grower *g)
 {
-    for (double step = 1.0; step >= LEAST_STEP; step *= 0.5) {
+    double step = 1.0;
+    while (step >= LEAST_STEP) {
         bool moved = true;
         while (moved) {
             moved = false;
             for (int face = 0; face < 6; face++)
                 moved |= move_face(g, face, step);
         }
+        step *= 0.5;
     }
 }
 
@@ -187,7 +189,8 @@ static occ_result gather_near(occ_hooks *hooks, const occ_voxels *v, const occ_t
 static bool start(grower *g)
 {
     const occ_near_triangle *stopper;
-    for (double shrink = 0x1p-6; shrink <= 0x1p-3; shrink *= 2.0) {
+    double shrink = 0x1p-6;
+    for (int i = 0; i < 4; i++, shrink *= 2.0) {
         if (is_free(g, g->low, g->high, &g->box, &stopper)) return true;
         for (int k = 0; k < 3; k++) {
             g->low[k] += shrink;

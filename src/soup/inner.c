@@ -73,7 +73,7 @@ typedef struct find_call {
     occ_search search;
     const occ_soup *soup;
     occ_inner_box *boxes;
-    size_t capacity, *count;
+    size_t capacity, count;
     occ_result result;
 } find_call;
 
@@ -98,7 +98,7 @@ static void find_body(occ_team *team, void *context)
     if (!call->result) call->result = occ_search_sites(s, team);
     if (!call->result) call->result = occ_search_candidates(s, team);
     if (!call->result)
-        call->result = occ_search_choose(s, team, call->boxes, call->capacity, call->count);
+        call->result = occ_search_choose(s, team, call->boxes, call->capacity, &call->count);
 }
 
 static void free_search(occ_search *s)
@@ -127,8 +127,7 @@ static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_inner_d
                                  .candidates = OCC_ARRAY(occ_candidate)},
                       .soup = soup,
                       .boxes = boxes,
-                      .capacity = capacity,
-                      .count = count};
+                      .capacity = capacity};
     occ_with_team(occ_threads_offered(desc->threads), find_body, &call);
     free_search(&call.search);
     if (stats) {
@@ -137,6 +136,7 @@ static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_inner_d
         stats->counts = counts;
         stats->peak_bytes = counted.peak;
     }
+    if (!call.result) *count = call.count;
     return call.result;
 }
 
@@ -156,8 +156,5 @@ occ_result occ_inner_find(const occ_soup *soup, const occ_inner_desc *desc, occ_
     if (!result) result = occ_soup_validate(soup, &hooks);
     if (!result && stats) result = occ_soup_check(soup, &taken.work, &stats->counts);
     if (!result) result = occ_soup_progress(&taken.work, &hooks, 0.0);
-    size_t found = 0;
-    if (!result) result = find(&hooks, soup, &taken, boxes, capacity, &found, stats);
-    if (!result) *count = found;
-    return result;
+    return result ? result : find(&hooks, soup, &taken, boxes, capacity, count, stats);
 }

@@ -52,8 +52,10 @@ static uint32_t weld(occ_mesh *mesh, table *t, const float p[3])
     uint32_t bits[3];
     memcpy(bits, p, sizeof bits);
     size_t i = mix(bits[0], bits[1], bits[2]) & (t->size - 1);
-    for (; t->slot[i] != NOTHING; i = (i + 1) & (t->size - 1))
-        if (!memcmp(mesh->at[t->slot[i]], p, sizeof bits)) return t->slot[i];
+    for (; t->slot[i] != NOTHING; i = (i + 1) & (t->size - 1)) {
+        const float *q = mesh->at[t->slot[i]];
+        if (q[0] == p[0] && q[1] == p[1] && q[2] == p[2]) return t->slot[i];
+    }
     memcpy(mesh->at[mesh->vertices], p, sizeof bits);
     for (int k = 0; k < 3; k++) {
         mesh->min[k] = fminf(mesh->min[k], p[k]);

@@ -68,8 +68,8 @@ static void fit_picture(occ_picture *p, const float min[3], const float max[3], 
 
 // --- spans ---------------------------------------------------------------------------------------
 
-// What happens to the pixels [first, end) of a row of words.
-typedef uint32_t (*span_action)(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end);
+// What happens to pixels: the model is drawn, a box covers them, or is only looked at.
+typedef enum span_action { DRAW_MODEL, COVER_MODEL, COUNT_NEW } span_action;
 
 static uint64_t bits_from(uint32_t first)
 {
@@ -81,33 +81,23 @@ static uint64_t bits_up_to(uint32_t last)
     return ~(uint64_t)0 >> (63 - last % 64);
 }
 
-#define EACH_WORD(first, end, mask)                                                                \
-    for (uint32_t w = (first) / 64, last = ((end)-1) / 64, m = 1; m && w <= last; w++)             \
-        for (uint64_t mask = (w == (first) / 64 ? bits_from(first) : ~(uint64_t)0) &               \
-                             (w == last ? bits_up_to((end)-1) : ~(uint64_t)0);                     \
-             mask; mask = 0)
-
-static uint32_t count_new(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end)
+// Does it to the pixels [first, end) of a row, which is not empty.
+static uint32_t fill_span(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end,
+                          span_action action)
 {
-    uint32_t count = 0;
-    EACH_WORD(first, end, mask)
-    count += (uint32_t)__builtin_popcountll(model[w] & ~covered[w] & mask);
+    uint32_t last = (end - 1) / 64, count = 0;
+    for (uint32_t w = first / 64; w <= last; w++) {
+        uint64_t mask = w == first / 64 ? bits_from(first) : ~(uint64_t)0;
+        if (w == last) mask &= bits_up_to(end - 1);
+        if (action == COUNT_NEW) {
+            count += (uint32_t)__builtin_popcountll(model[w] & ~covered[w] & mask);
+        } else if (action == COVER_MODEL) {
+            covered[w] |= model[w] & mask;
+        } else {
+            model[w] |= mask;
+        }
+    }
     return count;
-}
-
-static uint32_t cover_span(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end)
-{
-    EACH_WORD(first, end, mask)
-    covered[w] |= model[w] & mask;
-    return 0;
-}
-
-static uint32_t draw_span(uint64_t *covered, uint64_t *model, uint32_t first, uint32_t end)
-{
-    (void)covered;
-    EACH_WORD(first, end, mask)
-    model[w] |= mask;
-    return 0;
 }
 
 static uint32_t clip_pixel(double at, uint32_t most)
@@ -139,7 +129,7 @@ static uint32_t fill(const occ_silhouette *s, const occ_picture *p, const double
         uint32_t first = clip_pixel(from, p->width), last = clip_pixel(to, p->width);
         size_t row = p->first + (size_t)y * (p->width / 64);
         if (from <= to && first < last)
-            sum += action(s->covered + row, s->model + row, first, last);
+            sum += fill_span(s->covered + row, s->model + row, first, last, action);
     }
     return sum;
 }
@@ -187,7 +177,7 @@ double occ_silhouette_gain(const occ_silhouette *silhouette, const occ_box *box)
         const occ_picture *p = &silhouette->picture[d];
         double corner[6][2];
         outline_box(p, box, corner);
-        sum += p->pixel * fill(silhouette, p, (const double(*)[2])corner, 6, count_new);
+        sum += p->pixel * fill(silhouette, p, (const double(*)[2])corner, 6, COUNT_NEW);
     }
     return sum / OCC_DIRECTIONS;
 }
@@ -198,7 +188,7 @@ void occ_silhouette_cover(occ_silhouette *silhouette, const occ_box *box)
         const occ_picture *p = &silhouette->picture[d];
         double corner[6][2];
         outline_box(p, box, corner);
-        (void)fill(silhouette, p, (const double(*)[2])corner, 6, cover_span);
+        (void)fill(silhouette, p, (const double(*)[2])corner, 6, COVER_MODEL);
     }
 }
 
@@ -222,7 +212,7 @@ static void draw_direction(void *context, uint32_t direction)
             corner[c][0] = dot_double(p->across, v) - p->origin[0];
             corner[c][1] = dot_double(p->up, v) - p->origin[1];
         }
-        (void)fill(job->silhouette, p, (const double(*)[2])corner, 3, draw_span);
+        (void)fill(job->silhouette, p, (const double(*)[2])corner, 3, DRAW_MODEL);
     }
 }
 
