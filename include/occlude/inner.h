@@ -75,9 +75,10 @@ typedef struct occ_inner_stats {
 } occ_inner_stats;
 
 /// Looks for up to `capacity` boxes and writes them to `boxes`, `*count` of them, in the order of
-/// choice: each is the one that adds most to the covered silhouette, as a mean over 13 directions
-/// from all around, so that any first few are a choice too and `gain` is the curve by which to cut.
-/// The same soup and desc give the same boxes, whatever `threads`. `stats` may be NULL.
+/// choice: each is the one that, before it is grown, adds most to the covered silhouette, as a mean
+/// over 13 directions from all around. So any first few are a choice too, and `gain` is the curve
+/// by which to cut. The same soup and desc give the same boxes, whatever `threads`. `stats` may be
+/// NULL.
 OCC_API OCC_NODISCARD occ_result occ_inner_find(const occ_soup *soup, const occ_inner_desc *desc,
                                                 occ_inner_box *boxes, size_t capacity,
                                                 size_t *count, occ_inner_stats *stats);

@@ -26,8 +26,8 @@ static occ_result judge_group(void *context, const occ_voxels *voxels, uint32_t 
         middle[k] = place[k] + 0.5;
     occ_voxels_lead_back(voxels, middle, world);
     float point[3] = {(float)world[0], (float)world[1], (float)world[2]};
-    occ_result result = occ_mark_point(s->hooks, &s->closed, j->site->triangles.list,
-                                       j->site->triangles.count, point, &j->mark);
+    occ_result result = occ_mark_point(s->hooks, &s->closed, j->site->part.list,
+                                       j->site->part.count, point, &j->mark);
     *kept = !result && (occ_is_closed_off(&s->space, &j->mark, NULL) ||
                         occ_is_dry_enough(&s->space, &j->mark, voxels->grid.hole));
     return result;
@@ -38,8 +38,8 @@ static occ_result find_solid(occ_search *s, const occ_site *site, occ_voxels *v,
     const occ_inner_desc *d = s->desc;
     occ_result result = occ_voxels_reserve(s->hooks, v);
     if (result) return result;
-    occ_voxels_mark(v, &site->triangles, team);
-    occ_solid_flood(v, &site->triangles, d->free_points, d->free_points ? d->free_count : 0);
+    occ_voxels_mark(v, &site->near, team);
+    occ_solid_flood(v, &site->near, d->free_points, d->free_points ? d->free_count : 0);
     group_judge judge = {s, site, OCC_MARK};
     result = occ_solid_settle(s->hooks, v, judge_group, &judge);
     occ_mark_free(s->hooks, &judge.mark);
@@ -70,13 +70,13 @@ static occ_result lay_grids(occ_search *s, uint32_t index, occ_voxels *v, occ_te
 {
     const occ_site *site = (const occ_site *)s->sites.data + index;
     float axes[OCC_MOST_TURNS][3][3];
-    uint32_t turns = occ_turned_axes(&site->triangles, axes);
+    uint32_t turns = occ_turned_axes(&site->own, axes);
     uint32_t seeds = SEEDS_IN_ALL / s->sites.count;
     if (s->desc->aligned_only) turns = 1;
     if (seeds < LEAST_SEEDS) seeds = LEAST_SEEDS;
     for (uint32_t turn = 0; turn < turns; turn++) {
         occ_inner_grid grid;
-        if (!occ_grid_plan(&site->triangles, (const float(*)[3])axes[turn], site->most_cells,
+        if (!occ_grid_plan(&site->own, (const float(*)[3])axes[turn], site->most_cells,
                            s->desc->max_hole, &grid))
             continue;
         occ_laid_grid *laid = occ_array_push(s->hooks, &s->laid);
@@ -102,11 +102,11 @@ static void look_at_some(void *context, uint32_t part)
 {
     const gain_job *job = context;
     const occ_laid_grid *laid = job->search->laid.data;
-    const occ_site *sites = job->search->sites.data;
+    occ_site *sites = job->search->sites.data;
     uint32_t end = occ_part_first(job->count, OCC_MOST_PARTS, part + 1);
     for (uint32_t i = occ_part_first(job->count, OCC_MOST_PARTS, part); i < end; i++) {
         occ_candidate *c = &job->at[i];
-        c->gain = occ_silhouette_gain(&sites[laid[c->laid].site].silhouette, &c->box);
+        c->gain = occ_silhouette_gain(occ_site_pictures(sites, laid[c->laid].site), &c->box);
     }
 }
 

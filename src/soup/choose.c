@@ -34,10 +34,16 @@ static void sink(chooser *c, uint32_t i)
     c->heap[i] = held;
 }
 
-static occ_site *site_of(const chooser *c, uint32_t candidate)
+static const occ_site *site_of(const chooser *c, uint32_t candidate)
 {
     const occ_laid_grid *laid = c->search->laid.data;
-    return (occ_site *)c->search->sites.data + laid[c->at[candidate].laid].site;
+    return (const occ_site *)c->search->sites.data + laid[c->at[candidate].laid].site;
+}
+
+static occ_silhouette *pictures_of(const chooser *c, uint32_t candidate)
+{
+    const occ_laid_grid *laid = c->search->laid.data;
+    return occ_site_pictures(c->search->sites.data, laid[c->at[candidate].laid].site);
 }
 
 // Takes the best candidate from the heap; false if none is worth it.
@@ -46,7 +52,7 @@ static bool take_best(chooser *c, double least, uint32_t *best)
     while (c->count) {
         *best = c->heap[0];
         occ_candidate *top = &c->at[*best];
-        double gain = occ_silhouette_gain(&site_of(c, *best)->silhouette, &top->box);
+        double gain = occ_silhouette_gain(pictures_of(c, *best), &top->box);
         bool still = gain == top->gain;
         top->gain = gain;
         if (still && gain < least) return false;
@@ -66,15 +72,15 @@ static occ_result make_box(chooser *c, uint32_t candidate, occ_inner_box *out, b
 {
     occ_search *s = c->search;
     const occ_site *site = site_of(c, candidate);
-    const occ_triangles *t = &site->triangles;
+    const occ_triangles *t = &site->part;
     occ_voxels v = {0};
     *out = (occ_inner_box){.grid = ((occ_laid_grid *)s->laid.data)[c->at[candidate].laid].grid};
     *sound = false;
     if (!occ_voxels_set(&v, &out->grid)) return OCC_SUCCESS;
     bool grown;
-    occ_result result =
-        occ_grow_box(s->hooks, &v, t, &c->at[candidate].cells, &c->near, &out->box, &grown);
-    if (result || !grown) return result;
+    occ_result result = occ_grow_box(s->hooks, &v, &site->near, &c->at[candidate].cells, &c->near,
+                                     &out->box, &grown);
+    if (result || !grown || occ_find_intruder(t, &out->box) != UINT32_MAX) return result;
     result = occ_mark_point(s->hooks, &s->closed, t->list, t->count, out->box.center, &c->mark);
     if (result) return result;
     out->closed = occ_is_closed_off(&s->space, &c->mark, NULL);
@@ -97,7 +103,7 @@ static occ_result choose(chooser *c, occ_inner_box *boxes, size_t capacity, size
         result = make_box(c, best, box, &sound);
         if (result) return occ_fail(s->hooks, result, "no memory to grow a box");
         if (!sound) continue;
-        occ_silhouette *silhouette = &site_of(c, best)->silhouette;
+        occ_silhouette *silhouette = pictures_of(c, best);
         double gain = occ_silhouette_gain(silhouette, &box->box);
         occ_silhouette_cover(silhouette, &box->box);
         box->gain = (float)(gain / all);

@@ -219,3 +219,23 @@ occ_result occ_grow_box(occ_hooks *hooks, const occ_voxels *voxels, const occ_tr
     *grown = true;
     return OCC_SUCCESS;
 }
+
+uint32_t occ_find_intruder(const occ_triangles *triangles, const occ_box *box)
+{
+    float min[3], max[3];
+    occ_ready_box ready;
+    occ_box_bounds(box, min, max);
+    occ_ready_box_make(box, &ready);
+    for (uint32_t i = 0; i < triangles->count; i++) {
+        uint32_t t = occ_triangle_at(triangles, i);
+        const float *corner[3];
+        bool apart = false;
+        for (int c = 0; c < 3; c++)
+            corner[c] = occ_mesh_corner(triangles->mesh, t, c);
+        for (int k = 0; k < 3 && !apart; k++)
+            apart = (corner[0][k] < min[k] && corner[1][k] < min[k] && corner[2][k] < min[k]) ||
+                    (corner[0][k] > max[k] && corner[1][k] > max[k] && corner[2][k] > max[k]);
+        if (!apart && occ_ready_box_entered(&ready, corner)) return t;
+    }
+    return UINT32_MAX;
+}

@@ -23,4 +23,7 @@ typedef struct occ_near_triangle {
 occ_result occ_grow_box(occ_hooks *hooks, const occ_voxels *voxels, const occ_triangles *triangles,
                         const occ_cuboid *cells, occ_array *room, occ_box *box, bool *grown);
 
+// The first triangle of a list that enters a box, exactly, or UINT32_MAX.
+uint32_t occ_find_intruder(const occ_triangles *triangles, const occ_box *box);
+
 #endif

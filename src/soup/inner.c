@@ -104,8 +104,10 @@ static void find_body(occ_team *team, void *context)
 static void free_search(occ_search *s)
 {
     occ_site *sites = s->sites.data;
-    for (uint32_t i = 0; i < s->sites.count; i++)
+    for (uint32_t i = 0; i < s->sites.count; i++) {
         occ_silhouette_free(s->hooks, &sites[i].silhouette);
+        occ_free(s->hooks, sites[i].list, sites[i].room * sizeof *sites[i].list);
+    }
     occ_array_free(s->hooks, &s->sites);
     occ_array_free(s->hooks, &s->laid);
     occ_array_free(s->hooks, &s->candidates);

@@ -34,13 +34,24 @@ bool occ_is_closed_off(const occ_free_space *space, const occ_mark *mark, uint32
 // Whether a point that a flood left dry counts as solid, for want of something better.
 bool occ_is_dry_enough(const occ_free_space *space, const occ_mark *mark, float hole);
 
-// A part that is looked at.
+// What gets grids of its own: a part, or a cluster of closed patches within one that is small in
+// it.
 typedef struct occ_site {
-    occ_triangles triangles;
-    occ_silhouette silhouette;
+    occ_triangles own;  // it lies around these
+    occ_triangles near; // all of the part that come near it, these included
+    occ_triangles part; // all of the part
+    uint32_t *list;     // own and near, if they are not the part's; `room` long
+    uint32_t room;
+    uint32_t pictures;         // the site of the part
+    occ_silhouette silhouette; // of a part
     uint32_t most_cells;
     bool has_closed; // some of its surface is
 } occ_site;
+
+static inline occ_silhouette *occ_site_pictures(occ_site *sites, uint32_t site)
+{
+    return &sites[sites[site].pictures].silhouette;
+}
 
 // A grid that was laid over a site.
 typedef struct occ_laid_grid {
@@ -68,7 +79,7 @@ typedef struct occ_search {
     occ_inner_stats stats;
 } occ_search;
 
-// Chooses the parts to look at, and draws their silhouettes.
+// Chooses the parts and clusters to look at, and draws the parts' silhouettes.
 occ_result occ_search_sites(occ_search *search, occ_team *team);
 
 // Lays grids over the sites and gathers candidates.

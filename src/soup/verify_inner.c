@@ -7,7 +7,7 @@
 
 #include "box.h"
 #include "log.h"
-#include "soup/overlap.h"
+#include "soup/grow.h"
 
 #include <string.h>
 
@@ -31,24 +31,6 @@ typedef struct verify_call {
     occ_result result;
 } verify_call;
 
-// The first triangle of the mesh that enters a box, or UINT32_MAX.
-static uint32_t find_intruder(const occ_mesh *mesh, const occ_ready_box *ready)
-{
-    float min[3], max[3];
-    occ_box_bounds(&ready->box, min, max);
-    for (uint32_t t = 0; t < mesh->triangles; t++) {
-        const float *corner[3];
-        bool apart = false;
-        for (int c = 0; c < 3; c++)
-            corner[c] = occ_mesh_corner(mesh, t, c);
-        for (int k = 0; k < 3 && !apart; k++)
-            apart = (corner[0][k] < min[k] && corner[1][k] < min[k] && corner[2][k] < min[k]) ||
-                    (corner[0][k] > max[k] && corner[1][k] > max[k] && corner[2][k] > max[k]);
-        if (!apart && occ_ready_box_entered(ready, corner)) return t;
-    }
-    return UINT32_MAX;
-}
-
 static occ_result judge_box(verify_call *call, const occ_inner_box *box, occ_mark *mark, verdict *v)
 {
     occ_ready_box ready;
@@ -58,7 +40,8 @@ static occ_result judge_box(verify_call *call, const occ_inner_box *box, occ_mar
         v->reason = OCC_INNER_FLAT;
         return OCC_SUCCESS;
     }
-    uint32_t intruder = find_intruder(&call->mesh, &ready);
+    occ_triangles all = {&call->mesh, NULL, call->mesh.triangles};
+    uint32_t intruder = occ_find_intruder(&all, &box->box);
     if (intruder != UINT32_MAX) {
         v->reason = OCC_INNER_ENTERED;
         v->triangle = call->mesh.source[intruder];
