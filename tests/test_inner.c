@@ -180,6 +180,23 @@ START_TEST(solids_that_touch_overlap_or_stand_apart_are_found)
 }
 END_TEST
 
+START_TEST(small_solids_in_a_large_hall_get_grids_of_their_own)
+{
+    occ_inner_desc desc = quick();
+    desc.max_cells = 4096; // one is a tenth of a cell wide
+    add_box(0, 0, 0, 1000, 1000, 100);
+    world->triangles -= 2; // the hall is open
+    for (int i = 0; i < 5; i++)
+        add_box(100.0f * (float)i + 50, 300, 0, 100.0f * (float)i + 56, 306, 40);
+    find(&desc);
+    ck_assert_uint_eq(stats.parts, 1);
+    ck_assert_uint_eq(count, 5);
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            ck_assert_float_eq_tol(boxes[i].box.axis[k][k], k == 2 ? 20.0f : 3.0f, 1e-3f);
+}
+END_TEST
+
 START_TEST(thin_walls_get_cells_of_their_own_shape)
 {
     occ_inner_desc desc = quick();
@@ -616,6 +633,7 @@ int main(void)
     tcase_add_test(solids, two_arms_take_two_boxes);
     tcase_add_test(solids, round_solids_are_covered_by_more_and_more);
     tcase_add_test(solids, solids_that_touch_overlap_or_stand_apart_are_found);
+    tcase_add_test(solids, small_solids_in_a_large_hall_get_grids_of_their_own);
     tcase_add_test(solids, thin_walls_get_cells_of_their_own_shape);
     tcase_add_test(solids, open_mesh_yields_nothing_unless_holes_are_allowed);
     tcase_add_test(solids, room_is_left_free_if_a_point_or_the_winding_says_so);
