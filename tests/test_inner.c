@@ -292,6 +292,44 @@ START_TEST(room_is_left_free_if_a_point_or_the_winding_says_so)
 }
 END_TEST
 
+START_TEST(space_between_rooms_is_solid_if_the_eye_never_leaves_them)
+{
+    occ_inner_desc desc = quick();
+    const float points[6] = {5, 5, 5, 17, 5, 5};
+    add_box(0, 0, 0, 10, 10, 10);
+    add_box(12, 0, 0, 22, 10, 10);
+    add_box(4, 4, 0, 6, 6, 2); // a pillar in one of them
+    desc.outside_solid = true;
+    ck_assert_int_eq(occ_inner_find(&(occ_soup){0}, &desc, boxes, MOST, &count, NULL),
+                     OCC_ERROR_INVALID_ARGUMENT); // and where is the eye?
+    desc.free_points = points;
+    desc.free_count = 2;
+    for (int holes = 0; holes < 2; holes++) {
+        if (holes) { // a crack, and a room that is open if any hole counts
+            world->at[0][0] += 0.001f;
+            desc.max_hole = 2.5f;
+            desc.max_cells = 200000;
+        }
+        bool between = false, pillar = false;
+        find(&desc);
+        for (size_t i = 0; i < count; i++) {
+            const float *c = boxes[i].box.center;
+            bool low = c[1] > 0 && c[1] < 10 && c[2] > 0 && c[2] < 10;
+            between |= low && c[0] > 10 && c[0] < 12;
+            pillar |= low && c[0] > 4 && c[0] < 6;
+            KIT_CHECK(!(low && c[0] > 12 && c[0] < 22), "box %zu fills the second room", i);
+            KIT_CHECK(!(low && c[0] > 0 && c[0] < 4), "box %zu fills the first room", i);
+        }
+        ck_assert(between && pillar);
+    }
+    const float inside[3] = {11, 5, 5};
+    desc.free_points = inside;
+    desc.free_count = 1;
+    occ_soup soup = shapes_soup(world);
+    ck_assert_int_eq(occ_verify_inner(&soup, boxes, count, &desc, NULL), OCC_ERROR_NOT_INSIDE);
+}
+END_TEST
+
 START_TEST(box_in_a_room_is_told_from_one_in_a_wall)
 {
     occ_inner_desc desc = quick();
@@ -637,6 +675,7 @@ int main(void)
     tcase_add_test(solids, thin_walls_get_cells_of_their_own_shape);
     tcase_add_test(solids, open_mesh_yields_nothing_unless_holes_are_allowed);
     tcase_add_test(solids, room_is_left_free_if_a_point_or_the_winding_says_so);
+    tcase_add_test(solids, space_between_rooms_is_solid_if_the_eye_never_leaves_them);
     tcase_add_test(solids, choice_stops_at_the_coverage_or_the_number_asked_for);
     tcase_add_test(solids, what_has_no_inside_yields_nothing);
     TCase *verify = add_case(suite, tcase_create("verify"));

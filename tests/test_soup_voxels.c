@@ -257,7 +257,7 @@ START_TEST(flood_reaches_what_it_can)
         ck_assert(touched && reached);
         memcpy(touched, v.state, v.count);
         slow_flood(&v, touched, reached);
-        occ_solid_flood(&v, &none, NULL, 0);
+        occ_solid_flood(&v, &none, false, NULL, 0);
         for (uint32_t c = 0; c < v.count; c++) {
             bool wet = (v.state[c] & OCC_CELL_REACHED) != 0;
             KIT_CHECK(wet == (reached[c] != 0), "round %d: cell %u is %s", round, c,
@@ -334,7 +334,7 @@ START_TEST(boxes_of_cells_are_solid_and_as_large_as_can_be)
             for (int k = 0; k < 3; k++)
                 if (at[k] == 1 || at[k] + 2 == v.grid.size[k]) v.state[c] = OCC_CELL_TOUCHED;
         }
-        occ_solid_flood(&v, &none, NULL, 0);
+        occ_solid_flood(&v, &none, false, NULL, 0);
         ck_assert_int_eq(occ_solid_settle(&hooks, &v, keep_even, &asked), OCC_SUCCESS);
         for (uint32_t c = 0; c < v.count; c++) {
             sum += v.state[c] != 0;

@@ -10,7 +10,8 @@
 ///
 /// **Rooms.** A level is often modelled from within, and nobody can get into its rooms from outside
 /// either. Name points in them (`free_points`: where the eye may be), or let the winding tell
-/// (`facing`), or boxes will fill the rooms.
+/// (`facing`), or boxes will fill the rooms. And if the eye never leaves the rooms, all that is
+/// beyond their walls may be solid (`outside_solid`).
 ///
 /// Works on the soups of soup.h and fails as its calls do.
 #ifndef OCCLUDE_INNER_H
@@ -35,6 +36,10 @@ typedef struct occ_inner_desc {
                         ///< none does.
     occ_facing facing;  ///< Default: the winding says nothing.
     bool aligned_only;  ///< Boxes along the axes alone. Default: turned ones where they gain more.
+    /// The eye is in rooms that `free_points` lead to, and so is whatever is to be seen; beyond
+    /// their walls all is solid, the outside too. Boxes are then chosen by what they cover of each
+    /// of eight layers of the model, not of its silhouette. Default: the outside is free.
+    bool outside_solid;
     const float *free_points; ///< Three floats each: points of free space. May be NULL.
     uint32_t free_count;      ///< How many.
 } occ_inner_desc;
@@ -69,7 +74,8 @@ typedef struct occ_inner_stats {
     uint64_t cells;          ///< Cells of all of them.
     uint64_t solid_cells;    ///< Of these, cells in which a box may lie.
     uint32_t candidates;     ///< Boxes that were chosen from.
-    float silhouette;        ///< Area of the model's silhouette, mean over the directions.
+    float silhouette;        ///< Area of the model's silhouette, mean over the directions; with
+                             ///< `outside_solid`, of those of its layers in sum.
     float coverage;          ///< The share of it that the boxes cover.
     uint64_t peak_bytes;     ///< The most memory that was allocated at any time.
 } occ_inner_stats;

@@ -39,7 +39,8 @@ static occ_result find_solid(occ_search *s, const occ_site *site, occ_voxels *v,
     occ_result result = occ_voxels_reserve(s->hooks, v);
     if (result) return result;
     occ_voxels_mark(v, &site->near, team);
-    occ_solid_flood(v, &site->near, d->free_points, d->free_points ? d->free_count : 0);
+    bool walled = d->outside_solid && occ_solid_encloses(v, &s->mesh);
+    occ_solid_flood(v, &site->near, walled, d->free_points, d->free_points ? d->free_count : 0);
     group_judge judge = {s, site, OCC_MARK};
     result = occ_solid_settle(s->hooks, v, judge_group, &judge);
     occ_mark_free(s->hooks, &judge.mark);

@@ -9,7 +9,8 @@ occ_result occ_free_space_make(occ_hooks *hooks, const occ_closed *closed,
     *space = (occ_free_space){.closed = closed,
                               .count = desc->free_points ? desc->free_count : 0,
                               .facing = desc->facing,
-                              .max_hole = desc->max_hole};
+                              .max_hole = desc->max_hole,
+                              .outside_solid = desc->outside_solid};
     if (!space->count) return OCC_SUCCESS;
     space->marks = occ_alloc(hooks, space->count * sizeof *space->marks);
     if (!space->marks) {
@@ -37,7 +38,7 @@ void occ_free_space_free(occ_hooks *hooks, occ_free_space *space)
 bool occ_is_closed_off(const occ_free_space *space, const occ_mark *mark, uint32_t *point)
 {
     if (point) *point = UINT32_MAX;
-    if (!mark->known || !mark->bits.count) return false;
+    if (!mark->known || (!mark->bits.count && !space->outside_solid)) return false;
     for (uint32_t i = 0; i < space->count; i++) {
         if (occ_marks_differ(mark, &space->marks[i])) continue;
         if (point) *point = i;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define THIN_CELLS   24.0   // across the thinnest extent, if other extents can spare them
-#define MOST_ACROSS  0x1p20 // the magnitude of a coordinate, in cells
+#define MOST_ACROSS  0x1p19 // the magnitude of a coordinate, in cells
 #define MOST_CLOSING 64u    // cells
 
 static double dot(const float a[3], const float p[3])
@@ -13,12 +13,12 @@ static double dot(const float a[3], const float p[3])
     return (double)a[0] * (double)p[0] + (double)a[1] * (double)p[1] + (double)a[2] * (double)p[2];
 }
 
-// m * 2^e with m from 4 to 7, not below `edge`.
+// m * 2^e with m from 8 to 15, not below `edge`.
 static double round_edge(double edge)
 {
     int exponent;
-    double m = ceil(frexp(edge, &exponent) * 8.0); // 4 to 8
-    return ldexp(m, exponent - 3);
+    double m = ceil(frexp(edge, &exponent) * 16.0); // 8 to 16
+    return ldexp(m, exponent - 4);
 }
 
 static double cells_along(double extent, double edge)
@@ -45,7 +45,7 @@ static bool choose_edges(const double extent[3], const double least[3], double m
         double count = 1.0;
         for (int k = 0; k < 3; k++) {
             double own = occ_least(size, extent[k] / thin);
-            edge[k] = round_edge(occ_most(occ_most(own, least[k]), longest * 0x1p-20));
+            edge[k] = round_edge(occ_most(occ_most(own, least[k]), longest * 0x1p-19));
             count *= cells_along(extent[k], edge[k]);
         }
         if (count <= most) return true;

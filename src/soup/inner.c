@@ -33,6 +33,8 @@ occ_result occ_inner_take_desc(const occ_hooks *hooks, occ_inner_desc *desc)
         complaint = "max_hole is not from 0 to OCC_MAX_COORDINATE";
     if (d->facing != OCC_FACING_ANY && d->facing != OCC_FACING_OUT)
         complaint = "facing is none of the enumerators";
+    if (d->outside_solid && !d->free_count)
+        complaint = "outside_solid needs free_points: else all is solid";
     if (complaint) return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "%s", complaint);
     return check_points(d, hooks);
 }
@@ -82,7 +84,7 @@ static occ_result read_soup(occ_search *s, const occ_soup *soup)
     occ_result result = occ_mesh_build(s->hooks, soup, &s->mesh);
     if (result || !s->mesh.triangles) return result;
     result = occ_closed_build(s->hooks, &s->mesh, &s->closed);
-    if (!result) result = occ_parts_build(s->hooks, &s->mesh, &s->parts);
+    if (!result) result = occ_parts_build(s->hooks, &s->mesh, s->desc->outside_solid, &s->parts);
     if (!result) result = occ_free_space_make(s->hooks, &s->closed, s->desc, &s->space);
     s->stats.open_triangles = s->closed.open_triangles;
     return result;

@@ -148,7 +148,8 @@ static void deal_triangles(const occ_mesh *mesh, const uint32_t *piece_of, const
     }
 }
 
-static bool cut_pieces(occ_hooks *hooks, const occ_mesh *mesh, uint32_t *piece_of, occ_parts *parts)
+static bool cut_pieces(occ_hooks *hooks, const occ_mesh *mesh, bool whole, uint32_t *piece_of,
+                       occ_parts *parts)
 {
     uint32_t count = number_pieces(mesh, piece_of);
     piece *pieces = occ_alloc(hooks, count * sizeof *pieces);
@@ -157,7 +158,7 @@ static bool cut_pieces(occ_hooks *hooks, const occ_mesh *mesh, uint32_t *piece_o
     bool done = pieces && part_of;
     if (done) {
         bound_pieces(mesh, piece_of, pieces, count);
-        done = cut(&c, 0, count, 0, 0, 0);
+        done = whole ? add_part(&c, 0, count) : cut(&c, 0, count, 0, 0, 0);
     }
     if (done) {
         for (uint32_t i = 0; i < count; i++)
@@ -169,14 +170,14 @@ static bool cut_pieces(occ_hooks *hooks, const occ_mesh *mesh, uint32_t *piece_o
     return done;
 }
 
-occ_result occ_parts_build(occ_hooks *hooks, const occ_mesh *mesh, occ_parts *parts)
+occ_result occ_parts_build(occ_hooks *hooks, const occ_mesh *mesh, bool whole, occ_parts *parts)
 {
     *parts = (occ_parts){.part = OCC_ARRAY(occ_part), .triangles = mesh->triangles};
     if (!mesh->triangles) return OCC_SUCCESS;
     size_t size = mesh->vertices * sizeof(uint32_t);
     uint32_t *piece_of = occ_alloc(hooks, size);
     parts->triangle = occ_alloc(hooks, mesh->triangles * sizeof *parts->triangle);
-    bool done = piece_of && parts->triangle && cut_pieces(hooks, mesh, piece_of, parts);
+    bool done = piece_of && parts->triangle && cut_pieces(hooks, mesh, whole, piece_of, parts);
     occ_free(hooks, piece_of, size);
     if (done) return OCC_SUCCESS;
     occ_parts_free(hooks, parts);

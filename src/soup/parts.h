@@ -18,7 +18,8 @@ typedef struct occ_parts {
     uint32_t triangles;
 } occ_parts;
 
-occ_result occ_parts_build(occ_hooks *hooks, const occ_mesh *mesh, occ_parts *parts);
+// `whole`: the mesh is one part.
+occ_result occ_parts_build(occ_hooks *hooks, const occ_mesh *mesh, bool whole, occ_parts *parts);
 
 void occ_parts_free(occ_hooks *hooks, occ_parts *parts);
 

@@ -19,6 +19,7 @@ typedef struct occ_free_space {
     uint32_t count;
     occ_facing facing;
     float max_hole;
+    bool outside_solid;
 } occ_free_space;
 
 occ_result occ_free_space_make(occ_hooks *hooks, const occ_closed *closed,
@@ -26,7 +27,7 @@ occ_result occ_free_space_make(occ_hooks *hooks, const occ_closed *closed,
 
 void occ_free_space_free(occ_hooks *hooks, occ_free_space *space);
 
-// Whether a point with this mark is apart from the outside and from all points of free space, and
+// Whether a point with this mark is apart from all points of free space, the outside included, and
 // on the back of the surface if facing is to count. `point`, which may be NULL, becomes a point
 // that it is not apart from, or UINT32_MAX.
 bool occ_is_closed_off(const occ_free_space *space, const occ_mark *mark, uint32_t *point);

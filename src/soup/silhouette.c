@@ -27,8 +27,10 @@ static void choose_axes(const int8_t direction[3], occ_picture *p)
         p->across[j] = (j == k ? 1.0 : 0.0) - d[k] * d[j];
         length += p->across[j] * p->across[j];
     }
-    for (int j = 0; j < 3; j++)
+    for (int j = 0; j < 3; j++) {
         p->across[j] /= sqrt(length);
+        p->along[j] = d[j];
+    }
     for (int j = 0; j < 3; j++)
         p->up[j] =
             d[(j + 1) % 3] * p->across[(j + 2) % 3] - d[(j + 2) % 3] * p->across[(j + 1) % 3];
@@ -42,12 +44,16 @@ static double dot_double(const double a[3], const double b[3])
 // Fits the picture around bounds: both axes in pixels, the origin one pixel outside.
 static void fit_picture(occ_picture *p, const float min[3], const float max[3], uint32_t side)
 {
+    p->near = INFINITY;
+    p->far = -INFINITY;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int c = 0; c < 8; c++) {
         double corner[3];
         for (int k = 0; k < 3; k++)
             corner[k] = (double)(c >> k & 1 ? max[k] : min[k]);
         double at[2] = {dot_double(p->across, corner), dot_double(p->up, corner)};
+        p->near = occ_least(p->near, dot_double(p->along, corner));
+        p->far = occ_most(p->far, dot_double(p->along, corner));
         for (int i = 0; i < 2; i++) {
             low[i] = occ_least(low[i], at[i]);
             high[i] = occ_most(high[i], at[i]);
@@ -64,6 +70,14 @@ static void fit_picture(occ_picture *p, const float min[3], const float max[3], 
     p->origin[1] = low[1] / edge - 1.0;
     p->width = ((uint32_t)((high[0] - low[0]) / edge) + 3 + 63) / 64 * 64;
     p->height = (uint32_t)((high[1] - low[1]) / edge) + 3;
+}
+
+// The ends of the whole are left open: there may be boxes beyond the triangles.
+static void cut_layer(occ_picture *p, uint32_t layer, uint32_t layers)
+{
+    double near = p->near, depth = (p->far - p->near) / layers;
+    p->near = layer ? near + depth * layer : -INFINITY;
+    p->far = layer + 1 < layers ? near + depth * (layer + 1) : INFINITY;
 }
 
 // --- spans ---------------------------------------------------------------------------------------
@@ -170,12 +184,26 @@ static void outline_box(const occ_picture *p, const occ_box *box, double corner[
     }
 }
 
+// Whether some of a box is in what a picture shows.
+static bool shows_box(const occ_picture *p, const occ_box *box)
+{
+    double middle = 0.0, reach = 0.0;
+    for (int j = 0; j < 3; j++)
+        middle += p->along[j] * (double)box->center[j];
+    for (int k = 0; k < 3; k++) {
+        double v[3] = {(double)box->axis[k][0], (double)box->axis[k][1], (double)box->axis[k][2]};
+        reach += fabs(dot_double(p->along, v));
+    }
+    return middle + reach > p->near && middle - reach < p->far;
+}
+
 double occ_silhouette_gain(const occ_silhouette *silhouette, const occ_box *box)
 {
     double sum = 0.0;
-    for (int d = 0; d < OCC_DIRECTIONS; d++) {
-        const occ_picture *p = &silhouette->picture[d];
+    for (uint32_t i = 0; i < silhouette->pictures; i++) {
+        const occ_picture *p = &silhouette->picture[i];
         double corner[6][2];
+        if (!shows_box(p, box)) continue;
         outline_box(p, box, corner);
         sum += p->pixel * fill(silhouette, p, (const double(*)[2])corner, 6, COUNT_NEW);
     }
@@ -184,9 +212,10 @@ double occ_silhouette_gain(const occ_silhouette *silhouette, const occ_box *box)
 
 void occ_silhouette_cover(occ_silhouette *silhouette, const occ_box *box)
 {
-    for (int d = 0; d < OCC_DIRECTIONS; d++) {
-        const occ_picture *p = &silhouette->picture[d];
+    for (uint32_t i = 0; i < silhouette->pictures; i++) {
+        const occ_picture *p = &silhouette->picture[i];
         double corner[6][2];
+        if (!shows_box(p, box)) continue;
         outline_box(p, box, corner);
         (void)fill(silhouette, p, (const double(*)[2])corner, 6, COVER_MODEL);
     }
@@ -199,27 +228,30 @@ typedef struct draw_job {
     const occ_triangles *triangles;
 } draw_job;
 
-static void draw_direction(void *context, uint32_t direction)
+static void draw_picture(void *context, uint32_t picture)
 {
     const draw_job *job = context;
-    const occ_picture *p = &job->silhouette->picture[direction];
+    const occ_picture *p = &job->silhouette->picture[picture];
     const occ_triangles *t = job->triangles;
     for (uint32_t i = 0; i < t->count; i++) {
-        double corner[3][2];
+        double corner[3][2], near = INFINITY, far = -INFINITY;
         for (int c = 0; c < 3; c++) {
             const float *q = occ_mesh_corner(t->mesh, occ_triangle_at(t, i), c);
             double v[3] = {(double)q[0], (double)q[1], (double)q[2]};
             corner[c][0] = dot_double(p->across, v) - p->origin[0];
             corner[c][1] = dot_double(p->up, v) - p->origin[1];
+            near = occ_least(near, dot_double(p->along, v));
+            far = occ_most(far, dot_double(p->along, v));
         }
+        if (near > p->far || far < p->near) continue;
         (void)fill(job->silhouette, p, (const double(*)[2])corner, 3, DRAW_MODEL);
     }
 }
 
 static void sum_model(occ_silhouette *s)
 {
-    for (int d = 0; d < OCC_DIRECTIONS; d++) {
-        const occ_picture *p = &s->picture[d];
+    for (uint32_t i = 0; i < s->pictures; i++) {
+        const occ_picture *p = &s->picture[i];
         uint64_t count = 0;
         for (uint32_t w = 0; w < p->height * (p->width / 64); w++)
             count += (uint64_t)__builtin_popcountll(s->model[p->first + w]);
@@ -228,18 +260,20 @@ static void sum_model(occ_silhouette *s)
 }
 
 occ_result occ_silhouette_make(occ_hooks *hooks, const occ_triangles *triangles, const float min[3],
-                               const float max[3], uint32_t side, occ_team *team,
+                               const float max[3], uint32_t side, uint32_t layers, occ_team *team,
                                occ_silhouette *silhouette)
 {
     occ_silhouette *s = silhouette;
     *s = (occ_silhouette){0};
-    for (int d = 0; d < OCC_DIRECTIONS; d++) {
-        occ_picture *p = &s->picture[d];
-        choose_axes(directions[d], p);
-        fit_picture(p, min, max, side);
-        p->first = s->words;
-        s->words += p->height * (p->width / 64);
-    }
+    for (uint32_t d = 0; d < OCC_DIRECTIONS; d++)
+        for (uint32_t layer = 0; layer < layers; layer++) {
+            occ_picture *p = &s->picture[s->pictures++];
+            choose_axes(directions[d], p);
+            fit_picture(p, min, max, side);
+            cut_layer(p, layer, layers);
+            p->first = s->words;
+            s->words += p->height * (p->width / 64);
+        }
     s->covered = occ_alloc(hooks, s->words * sizeof *s->covered);
     s->model = occ_alloc(hooks, s->words * sizeof *s->model);
     if (!s->covered || !s->model) {
@@ -249,7 +283,7 @@ occ_result occ_silhouette_make(occ_hooks *hooks, const occ_triangles *triangles,
     memset(s->covered, 0, s->words * sizeof *s->covered);
     memset(s->model, 0, s->words * sizeof *s->model);
     draw_job job = {s, triangles};
-    occ_do_parts(team, OCC_DIRECTIONS, draw_direction, &job);
+    occ_do_parts(team, s->pictures, draw_picture, &job);
     sum_model(s);
     return OCC_SUCCESS;
 }

@@ -69,8 +69,9 @@ static occ_result add_site(occ_search *s, const occ_part *part, double share, ui
     site->most_cells = cells < SITE_CELLS ? SITE_CELLS : (uint32_t)cells;
     if (site->most_cells > s->desc->max_cells) site->most_cells = s->desc->max_cells;
     site->has_closed = has_closed(&s->closed, &site->own);
-    occ_result result = occ_silhouette_make(s->hooks, &site->own, part->min, part->max, side, team,
-                                            &site->silhouette);
+    occ_result result =
+        occ_silhouette_make(s->hooks, &site->own, part->min, part->max, side,
+                            s->desc->outside_solid ? OCC_LAYERS : 1, team, &site->silhouette);
     s->stats.silhouette += (float)site->silhouette.area;
     return result;
 }

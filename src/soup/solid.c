@@ -62,13 +62,12 @@ static uint32_t push_reached(const occ_voxels *v, uint32_t cell, uint32_t end, u
     return end + 1;
 }
 
-// Goes on from the cells work[0, end) to their neighbours, until there are no more or `steps` are
-// done. The first `outermost` cells of the list are all those that lack a neighbour. Returns the
-// new end.
-static uint32_t spread(const occ_voxels *v, uint32_t outermost, uint32_t end, uint32_t steps,
-                       uint8_t walls)
+// Goes on from the cells work[first, end) to their neighbours, until there are no more or `steps`
+// are done. The first `outermost` cells of the list are all those on it that lack a neighbour.
+// Returns the new end.
+static uint32_t spread(const occ_voxels *v, uint32_t first, uint32_t outermost, uint32_t end,
+                       uint32_t steps, uint8_t walls)
 {
-    uint32_t first = 0;
     for (uint32_t step = 0; step < steps && first < end; step++)
         for (uint32_t stop = end; first < stop; first++) {
             uint32_t at[3] = {1, 1, 1}, cell = v->work[first];
@@ -173,8 +172,14 @@ static uint32_t push_point(const occ_voxels *v, const occ_triangles *t, const fl
     return end;
 }
 
-void occ_solid_flood(occ_voxels *voxels, const occ_triangles *triangles, const float *points,
-                     uint32_t count)
+static void wall_outermost(const occ_voxels *v, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        v->state[v->work[i]] = OCC_CELL_TOUCHED;
+}
+
+void occ_solid_flood(occ_voxels *voxels, const occ_triangles *triangles, bool outside_solid,
+                     const float *points, uint32_t count)
 {
     uint32_t closing = voxels->grid.closing;
     uint8_t walls = OCC_CELL_TOUCHED;
@@ -183,12 +188,29 @@ void occ_solid_flood(occ_voxels *voxels, const occ_triangles *triangles, const f
         walls |= OCC_CELL_BLOCKED;
     }
     uint32_t outermost = push_outermost(voxels), end = outermost;
+    if (outside_solid) {
+        wall_outermost(voxels, outermost);
+        outermost = end = 0;
+    }
     for (uint32_t i = 0; i < count; i++)
         end = push_point(voxels, triangles, points + 3 * (size_t)i, end);
-    end = spread(voxels, outermost, end, UINT32_MAX, walls);
+    // A point may be nearer to the surface than the flood gets.
+    end = spread(voxels, outermost, outermost, end, closing ? closing + 1 : 0, OCC_CELL_TOUCHED);
+    end = spread(voxels, 0, outermost, end, UINT32_MAX, walls);
     if (!closing) return;
     // Back to the surface: all that was reached spreads once more, a few steps.
-    (void)spread(voxels, outermost, end, closing + 1, OCC_CELL_TOUCHED);
+    (void)spread(voxels, 0, outermost, end, closing + 1, OCC_CELL_TOUCHED);
+}
+
+bool occ_solid_encloses(const occ_voxels *voxels, const occ_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->vertices; i++) {
+        double at[3];
+        occ_voxels_lead(voxels, mesh->at[i], at);
+        for (int k = 0; k < 3; k++)
+            if (!(at[k] > 1.0 && at[k] < (double)voxels->grid.size[k] - 1.0)) return false;
+    }
+    return true;
 }
 
 // --- groups --------------------------------------------------------------------------------------

@@ -15,10 +15,15 @@
 //             .......# xxxxxxxxx    .... <- an opening narrower than the flood
 //             .......#           #...
 //
+// If the outside is solid, the outermost cells are walls instead.
+//
 // A point in a touched cell stands for the free cells nearby that a straight way leads to without
 // meeting a triangle, or, if there is none, for all of those nearby.
-void occ_solid_flood(occ_voxels *voxels, const occ_triangles *triangles, const float *points,
-                     uint32_t count);
+void occ_solid_flood(occ_voxels *voxels, const occ_triangles *triangles, bool outside_solid,
+                     const float *points, uint32_t count);
+
+// Whether all of a mesh is inside the outermost cells.
+bool occ_solid_encloses(const occ_voxels *voxels, const occ_mesh *mesh);
 
 // Says whether a group of solid cells, any of which is `cell`, is to be kept.
 typedef occ_result (*occ_solid_judge)(void *context, const occ_voxels *voxels, uint32_t cell,

@@ -73,7 +73,8 @@ static occ_result ask_flood(verify_call *call, size_t first, occ_voxels *voxels,
     if (good) {
         if (occ_voxels_reserve(call->hooks, voxels)) return OCC_ERROR_OUT_OF_MEMORY;
         occ_voxels_mark(voxels, &all, team);
-        occ_solid_flood(voxels, &all, call->desc->free_points, call->space.count);
+        bool walled = call->desc->outside_solid && occ_solid_encloses(voxels, &call->mesh);
+        occ_solid_flood(voxels, &all, walled, call->desc->free_points, call->space.count);
     }
     for (size_t i = first; i < call->count; i++) {
         if (call->verdicts[i].asked || !same_grid(&call->boxes[i].grid, grid)) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A grid of cells over a part of a mesh, and which cells its surface touches.
 //
-// Cell edges are m * 2^e with m from 4 to 7, and cell 0 begins at a multiple of that. Both are
+// Cell edges are m * 2^e with m from 8 to 15, and cell 0 begins at a multiple of that. Both are
 // chosen so that along the axes of the world every number that a box of cells has, its middle and
 // its half edges included, is a float: (origin + n) * m is below 2^23.
 #ifndef OCC_SOUP_VOXELS_H
