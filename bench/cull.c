@@ -54,9 +54,10 @@ static const char cull_usage[] =
     "\n"
     "A frame's time is that of culling, of copying the mask and of copying the list of visible\n"
     "objects: what an engine waits for. All frames are culled once before anything is timed. A\n"
-    "frame's time is the median of its repeats; median_ms, p99_ms, max_ms, walk_ms and test_ms "
-    "run\n"
-    "over the frames, and in_frustum and visible are means over them.\n"
+    "frame's time is the median of its repeats, one after the other; median_ms, p99_ms, max_ms,\n"
+    "walk_ms and test_ms run over the frames. moved_ms is the median of frames that follow "
+    "another\n"
+    "one. in_frustum and visible are means over the frames.\n"
     "\n"
     "Example: occlude-bench cull city.obs --method fused --backend openmp --csv city.csv\n";
 
@@ -184,10 +185,11 @@ static bool print_summary(const cull_arguments *arguments, const obs_scene *scen
     }
     print_memory(scene, result);
     printf("scene=%s method=%s backend=%s threads=%u frames=%u objects=%u in_frustum=%.1f "
-           "visible=%.1f median_ms=%.4f p99_ms=%.4f max_ms=%.4f walk_ms=%.4f test_ms=%.4f\n",
+           "visible=%.1f median_ms=%.4f p99_ms=%.4f max_ms=%.4f walk_ms=%.4f test_ms=%.4f "
+           "moved_ms=%.4f\n",
            name, arguments->settings.method, arguments->settings.backend, result->threads,
            result->frame_count, scene->object_count, sum.in_frustum, sum.visible, sum.median_ms,
-           sum.p99_ms, sum.max_ms, sum.walk_ms, sum.test_ms);
+           sum.p99_ms, sum.max_ms, sum.walk_ms, sum.test_ms, sum.moved_ms);
     return true;
 }
 

@@ -31,6 +31,26 @@ bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *val
     return errno == 0 && *end == '\0' && number >= low && number <= high;
 }
 
+bool options_ascending(const char *text, uint32_t limit, uint32_t *list, uint32_t *count)
+{
+    *count = 0;
+    uint64_t next = 0;
+    for (;;) {
+        char number[16];
+        size_t length = strcspn(text, ",");
+        uint64_t value;
+        if (length >= sizeof number || limit == 0) return false;
+        memcpy(number, text, length);
+        number[length] = '\0';
+        if (!options_number(number, next, limit - 1, &value)) return false;
+        list[(*count)++] = (uint32_t)value;
+        next = value + 1;
+        text += length;
+        if (*text == '\0') return true;
+        text++;
+    }
+}
+
 bool options_size(const char *text, options_extent least, uint32_t most, options_extent *extent)
 {
     char copy[32]; // what is longer has too many digits

@@ -35,6 +35,10 @@ int options_complain(const char *command, const char *what);
 /// A whole decimal number from `low` to `high`, and nothing else in the text.
 bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *value);
 
+/// Ascending numbers below `limit`, parted by commas, such as 0,20,40. `list` has room for `limit`
+/// of them.
+bool options_ascending(const char *text, uint32_t limit, uint32_t *list, uint32_t *count);
+
 /// The sides of a picture or viewport.
 typedef struct options_extent {
     uint32_t width, height;

@@ -82,7 +82,6 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
     if (!made) return occ_fail(&hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for a scene");
     *made = (occ_scene){.hooks = hooks,
                         .id = atomic_fetch_add(&scenes_made, 1) + 1,
-                        .threads = occ_threads_offered(desc->threads),
                         .objects = OCC_SLOTS,
                         .slot_of = OCC_ARRAY(uint32_t),
                         .occluders = OCC_SLOTS,
@@ -92,7 +91,8 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
     occ_octree empty = {.nodes = OCC_ARRAY(occ_node)};
     empty.leaf_items = desc->leaf_objects ? desc->leaf_objects : DEFAULT_LEAF_OBJECTS;
     made->object_tree = made->occluder_tree = empty;
-    result = reserve_objects(made, desc->object_count);
+    result = occ_team_create(&made->hooks, occ_threads_offered(desc->threads), &made->team);
+    if (!result) result = reserve_objects(made, desc->object_count);
     if (!result) result = reserve_occluders(made, desc->occluder_count);
     if (result) {
         occ_fail(&hooks, result, "no memory for %u objects and %u occluders", desc->object_count,
@@ -118,6 +118,7 @@ void occ_scene_destroy(occ_scene *scene)
     occ_array_free(&hooks, &scene->attached);
     occ_array_free(&hooks, &scene->reach);
     occ_array_free(&hooks, &scene->changed);
+    occ_team_destroy(&hooks, scene->team);
     occ_free(&hooks, scene, sizeof *scene);
 }
 

@@ -111,12 +111,12 @@ typedef struct walk_call {
     double end;
 } walk_call;
 
-static void walk_on(occ_stream *stream, void *context)
+static void walk_on(occ_team *team, void *context)
 {
     walk_call *call = context;
-    call->frame->stream = stream;
+    call->frame->team = team;
     call->result = occ_walk(call->frame);
-    call->frame->stream = NULL;
+    call->frame->team = NULL;
     call->end = now_ms();
 }
 

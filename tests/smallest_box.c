@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// O'Rourke, "Finding minimal enclosing boxes", 1985: some smallest box has a face that holds an edge
-// of the hull. For each edge the normals between those of its two faces are searched; for each
+// O'Rourke, "Finding minimal enclosing boxes", 1985: some smallest box has a face that holds an
+// edge of the hull. For each edge the normals between those of its two faces are searched; for each
 // normal the best rectangle has a side along the points' outline, and all are tried.
 #include "smallest_box.h"
 
@@ -147,7 +147,7 @@ double smallest_box_volume(const float (*points)[3], uint32_t count)
         for (int k = 0; k < 3; k++)
             p[k] = (double)points[i][k] - (double)points[0][k];
         for (uint32_t j = 0; j < all.count; j++)
-            known = known || memcmp(all.at[j], p, sizeof p) == 0;
+            known = known || (all.at[j][0] == p[0] && all.at[j][1] == p[1] && all.at[j][2] == p[2]);
         if (!known) memcpy(all.at[all.count++], p, sizeof p);
     }
     keep_corners(&all, &hull);

@@ -48,7 +48,7 @@ static void make_ring(kit_random *random, double at[][3], uint32_t count)
 {
     double taper = 0.5 + 0.5 * any(random);
     for (uint32_t i = 0; i < count; i++) {
-        double angle = 6.283185307179586 * (double)(i / 2) / (double)((count + 1) / 2);
+        double angle = 6.283185307179586 * (double)(i - i % 2) / (double)(count + count % 2);
         at[i][0] = cos(angle) * (i % 2 ? 1.0 : taper);
         at[i][1] = sin(angle) * (i % 2 ? 1.0 : taper);
         at[i][2] = i % 2 ? 1.0 : -1.0;
@@ -91,9 +91,9 @@ static void make_point(kit_random *random, double at[][3], uint32_t count)
 }
 
 const soups_shape soups_shapes[] = {
-    {"cloud", make_cloud, true},  {"ball", make_ball, true},    {"sphere", make_sphere, true},
-    {"box", make_box, true},      {"ring", make_ring, true},    {"stack", make_stack, true},
-    {"plane", make_plane, false}, {"line", make_line, false},   {"point", make_point, false},
+    {"cloud", make_cloud, true},  {"ball", make_ball, true},  {"sphere", make_sphere, true},
+    {"box", make_box, true},      {"ring", make_ring, true},  {"stack", make_stack, true},
+    {"plane", make_plane, false}, {"line", make_line, false}, {"point", make_point, false},
 };
 const uint32_t soups_shape_count = (uint32_t)(sizeof soups_shapes / sizeof *soups_shapes);
 

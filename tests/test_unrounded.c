@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: property oracle
 // The numbers without rounding against GMP's rationals.
+#include "soup/unrounded.h"
 #include "steady.h"
 #include "support.h"
-#include "unrounded.h"
 
 #include <gmp.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 // handed out has passed a test without rounding.
 #include "parallelogram.h"
 
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 #include <string.h>

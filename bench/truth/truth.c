@@ -49,33 +49,13 @@ static int parse_truth(int argc, char **argv, truth_arguments *arguments)
     return 0;
 }
 
-// Fills `list`, which has room for every frame of the scene. NULL, or a complaint.
-static const char *parse_frames(const char *text, uint32_t frame_count, uint32_t *list,
-                                uint32_t *count)
-{
-    static const char complaint[] = "expected --frames as 0,20,40: ascending, and in the scene";
-    *count = 0;
-    uint64_t next = 0;
-    for (;;) {
-        char number[16];
-        size_t length = strcspn(text, ",");
-        uint64_t frame;
-        if (length >= sizeof number || frame_count == 0) return complaint;
-        memcpy(number, text, length);
-        number[length] = '\0';
-        if (!options_number(number, next, frame_count - 1, &frame)) return complaint;
-        list[(*count)++] = (uint32_t)frame;
-        next = frame + 1;
-        text += length;
-        if (*text == '\0') return NULL;
-        text++;
-    }
-}
-
 static const char *choose_frames(const truth_arguments *arguments, uint32_t frame_count,
                                  uint32_t *list, uint32_t *count)
 {
-    if (arguments->frames) return parse_frames(arguments->frames, frame_count, list, count);
+    if (arguments->frames)
+        return options_ascending(arguments->frames, frame_count, list, count)
+                   ? NULL
+                   : "expected --frames as 0,20,40: ascending, and in the scene";
     for (*count = 0; *count < 3 && 20 * *count < frame_count; (*count)++)
         list[*count] = 20 * *count;
     return *count > 0 ? NULL : "the scene has no frames";

@@ -125,7 +125,8 @@ OCC_API OCC_NODISCARD occ_result occ_view_read_mask(const occ_view *view, uint32
 OCC_API OCC_NODISCARD occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots,
                                                        size_t capacity, size_t *count);
 
-/// Copies the occluders that took part, nearest first. Same rules as for the mask.
+/// Copies the occluders that took part, front to back: none is nearer than one before it by more
+/// than a sixteenth of that one's squared distance. Same rules as for the mask.
 OCC_API OCC_NODISCARD occ_result occ_view_read_occluders(const occ_view *view,
                                                          occ_occluder *occluders, size_t capacity,
                                                          size_t *count);
@@ -141,7 +142,7 @@ typedef enum occ_fate {
     OCC_FATE_HIDDEN = 2   ///< Occluders hide all of it that is inside the frustum.
 } occ_fate;
 
-/// Says what became of an object by the latest result, and which occluders hid it, nearest first:
+/// Says what became of an object by the latest result, and which occluders hid it, front to back:
 /// one, or several that do it together and of which the proof can spare none; no occluder if the
 /// object was not hidden. Same rules for `occluders` as for the mask. `fate` and `count` may be
 /// NULL.

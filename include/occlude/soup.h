@@ -24,7 +24,7 @@
 typedef struct occ_soup {
     const float *positions;  ///< Three floats for each vertex, in world units.
     uint32_t vertex_count;   ///< Vertices in `positions`.
-    uint32_t stride;         ///< Bytes from one vertex to the next. 0: 12, tightly packed.
+    uint32_t stride;         ///< Bytes from one vertex to the next, a multiple of 4. 0: 12.
     const uint32_t *indices; ///< Three for each triangle. NULL: 0, 1, 2, and so on.
     uint32_t triangle_count; ///< Triangles; at least one.
 } occ_soup;
@@ -53,9 +53,10 @@ OCC_API OCC_NODISCARD occ_result occ_soup_check(const occ_soup *soup, const occ_
                                                 occ_soup_counts *counts);
 
 /// A small oriented box that holds every one of `count` points (at least one), each three floats at
-/// `points` plus a multiple of `stride` bytes (0: 12). Its axes are at right angles but for their
-/// rounding to floats. Never larger than what occ_box_from_points() gives. OCC_ERROR_OUT_OF_RANGE
-/// if a coordinate of the box would be beyond OCC_MAX_COORDINATE.
+/// `points` plus a multiple of `stride` bytes (0: 12, else a multiple of 4). Its axes are at right
+/// angles but for their rounding to floats. It is turned where that makes it smaller by a
+/// thousandth at least; else it is what occ_box_from_points() gives. OCC_ERROR_OUT_OF_RANGE if a
+/// coordinate of the box would be beyond OCC_MAX_COORDINATE. Needs no memory.
 OCC_API OCC_NODISCARD occ_result occ_bounds_of_points(const float *points, size_t count,
                                                       size_t stride, const occ_soup_work *work,
                                                       occ_box *box);

@@ -4,7 +4,7 @@
 #ifndef OCC_FIT_H
 #define OCC_FIT_H
 
-#include "overlap.h"
+#include "soup/overlap.h"
 
 #include <occlude/soup.h>
 

@@ -4,7 +4,7 @@
 // lies along the hull). Directions are tried from the points' axes, their spread and the
 // tetrahedra of Larsson and Kallberg; the best are improved by looking along the other sides of
 // the box found, and by tilting.
-#include "fit.h"
+#include "soup/fit.h"
 
 #include <math.h>
 #include <string.h>
@@ -162,7 +162,7 @@ static fit fit_along(const occ_sample *sample, const double n[3])
 
 // --- where to start ------------------------------------------------------------------------------
 
-enum { STARTS = 3, FEW = 5 };
+enum { STARTS = 2, TILTS = 7, FEW = 5 };
 
 // The best fits so far, best first.
 typedef struct ranking {
@@ -245,7 +245,7 @@ static const double *furthest(const occ_sample *sample, const double n[3], doubl
 static void find_corners(const occ_sample *sample, const double *corner[FEW], double normal[3])
 {
     double e[3], most = -1.0;
-    corner[0] = corner[1] = sample->at[0];
+    corner[0] = corner[1] = corner[2] = sample->at[0];
     for (int i = 0; i + 1 < sample->count; i += 2) { // pairs of opposite extremes come first
         subtract3(sample->at[i + 1], sample->at[i], e);
         double length = dot3(e, e);
@@ -324,7 +324,8 @@ static bool tilt(const occ_sample *sample, fit *best, double step)
 static void improve(const occ_sample *sample, fit *best)
 {
     look_along_sides(sample, best);
-    for (double step = 0.25; step > 0x1p-11; step *= 0.5)
+    double step = 0.25;
+    for (int level = 0; level < TILTS; level++, step *= 0.5)
         for (int tries = 0; tries < 6 && tilt(sample, best, step); tries++)
             look_along_sides(sample, best);
 }

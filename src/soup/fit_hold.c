@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From directions in doubles to a box of floats. Rounding moves its center and turns its axes a
 // little, so sides are lengthened until every point is inside, which is tested exactly.
-#include "fit.h"
+#include "soup/fit.h"
 
 #include "box.h"
 #include "rounding.h"

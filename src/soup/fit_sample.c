@@ -2,7 +2,7 @@
 // After Larsson and Kallberg, "Fast computation of tight-fitting oriented bounding boxes", 2011: a
 // few directions find the points that decide how a box is turned. Here they are more, and points
 // that turn out to matter are added.
-#include "fit.h"
+#include "soup/fit.h"
 
 #include <math.h>
 #include <string.h>

@@ -9,9 +9,9 @@
 // by 12eQ + 20uQ^2 in sum; the triangle's normal times a corner and its reach by
 // 120eQ^2 + 312uQ^3. As long as e < 2^-10 the terms of higher order are less than what was added
 // to these in EDGE_ERROR and NORMAL_ERROR.
-#include "overlap.h"
+#include "soup/overlap.h"
 
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -344,6 +344,49 @@ static bool flat_box_is_met(const occ_ready_box *ready, const float *const corne
     return true;
 }
 
+// Whether a direction surely does not tell a point, d from the center, from a flat box. `n` and `d`
+// are off by 2^-53 of each element, or not at all: what is zero here is zero.
+static bool surely_not_apart(const occ_ready_box *ready, const double n[3], const double d[3])
+{
+    double value = 0.0, reach = 0.0, terms = 0.0;
+    for (int j = 0; j < 3; j++) {
+        value += n[j] * d[j];
+        terms += fabs(n[j] * d[j]);
+    }
+    for (int k = 0; k < 3; k++) {
+        double part = 0.0;
+        for (int j = 0; j < 3; j++) {
+            double term = n[j] * (double)ready->box.axis[k][j];
+            part += term;
+            terms += fabs(term);
+        }
+        reach += fabs(part);
+    }
+    return fabs(value) + terms * 0x1p-49 <= reach;
+}
+
+// The same of all directions that matter for a point: see flat_box_is_met().
+static bool flat_box_surely_holds(const occ_ready_box *ready, const float *point)
+{
+    double d[3], n[3];
+    for (int j = 0; j < 3; j++)
+        d[j] = (double)point[j] - (double)ready->box.center[j];
+    for (int k = 0; k < 3; k++) {
+        float unit[3] = {0.0f, 0.0f, 0.0f};
+        unit[k] = 1.0f;
+        cross_floats(ready->box.axis[k], ready->box.axis[(k + 1) % 3], n);
+        if (!surely_not_apart(ready, n, d)) return false;
+        for (int i = 0; i < 3; i++) {
+            cross_floats(ready->box.axis[i], unit, n);
+            if (!surely_not_apart(ready, n, d)) return false;
+        }
+        for (int j = 0; j < 3; j++)
+            n[j] = (double)unit[j];
+        if (!surely_not_apart(ready, n, d)) return false;
+    }
+    return true;
+}
+
 // --- questions -----------------------------------------------------------------------------------
 
 static occ_contact contact_of(const occ_ready_box *ready, const float *const corner[3],
@@ -369,7 +412,7 @@ bool occ_ready_box_entered(const occ_ready_box *ready, const float *const corner
 bool occ_ready_box_holds(const occ_ready_box *ready, const float *point)
 {
     const float *const corner[3] = {point, point, point};
-    if (ready->flat) return flat_box_is_met(ready, corner);
+    if (ready->flat) return flat_box_surely_holds(ready, point) || flat_box_is_met(ready, corner);
     led_triangle led;
     lead(ready, corner, 1, &led);
     if (surely_inside(&led, 0)) return true;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit.h"
+#include "soup/fit.h"
 
 #include "box.h"
 #include "log.h"
-#include "triangles.h"
+#include "soup/triangles.h"
 
 #include <math.h>
 
@@ -52,7 +52,9 @@ static occ_result fit_points(const occ_points *points, const occ_soup_work *work
         double side[2][3];
         occ_fit_sides(&upright, side[0]);
         occ_fit_sides(&turned, side[1]);
-        if (occ_fit_measure(&sample, side[1]) < occ_fit_measure(&sample, side[0])) upright = turned;
+        // A box along the axes that is as good but for rounding is the better one to look at.
+        if (occ_fit_measure(&sample, side[1]) < occ_fit_measure(&sample, side[0]) * (1.0 - 0x1p-10))
+            upright = turned;
     }
     if (!result) result = occ_soup_progress(work, hooks, 1.0);
     if (!result) *box = upright;

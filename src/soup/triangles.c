@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "triangles.h"
+#include "soup/triangles.h"
 
 #include "log.h"
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 #include <string.h>
@@ -136,6 +136,13 @@ static triangle_key key_of(const occ_soup *soup, uint32_t triangle)
     return key;
 }
 
+static bool same_key(const triangle_key *a, const triangle_key *b)
+{
+    for (int i = 0; i < 9; i++)
+        if (a->at[i / 3][i % 3] != b->at[i / 3][i % 3]) return false;
+    return true;
+}
+
 static size_t scatter(const triangle_key *key)
 {
     uint32_t word[9];
@@ -161,7 +168,7 @@ static bool seen_before(triangle_table *table, const occ_soup *soup, uint32_t tr
     size_t i = scatter(&key) & (table->places - 1);
     for (; table->place[i]; i = (i + 1) & (table->places - 1)) {
         triangle_key other = key_of(soup, table->place[i] - 1);
-        if (memcmp(&key, &other, sizeof key) == 0) return true;
+        if (same_key(&key, &other)) return true;
     }
     table->place[i] = triangle + 1;
     return false;
@@ -203,8 +210,9 @@ static occ_result count_vertices(const occ_soup *soup, occ_hooks *hooks, occ_sou
     for (uint32_t t = 0; t < soup->triangle_count; t++) {
         for (int c = 0; c < 3; c++) {
             uint32_t v = occ_soup_index(soup, t, c);
-            counts->vertices += !(named[v / 8] >> (v % 8) & 1u);
-            named[v / 8] |= (unsigned char)(1u << (v % 8));
+            unsigned char bit = (unsigned char)(1u << (v % 8));
+            if (!(named[v / 8] & bit)) counts->vertices++;
+            named[v / 8] |= bit;
         }
     }
     occ_free(hooks, named, bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 

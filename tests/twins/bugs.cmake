@@ -103,7 +103,7 @@ occ_caught_by(plane_outward camera_planes frusta "${frustum_plane} outward")
 set(own "if (shadow->owner == row) continue;")
 occ_plant(owner_scalar IN src/backend_plain.c REPLACE "${own}" BY "" COMPILE backend_plain.c)
 occ_caught_by(owner_scalar backend_edges host "plain one by one: ${decided_otherwise}")
-occ_plant(owner_lanes IN src/lanes_objects.h REPLACE "centers &= ~(1u << own)" BY "centers &= ~0u" COMPILE lanes_plain)
+occ_plant(owner_lanes IN src/lanes_objects.h REPLACE "near &= ~(1u << own)" BY "near &= ~0u" COMPILE lanes_plain)
 occ_caught_by(owner_lanes backend_edges host "openmp plain: ${decided_otherwise}")
 occ_plant(owner_node IN src/lanes_walk.h REPLACE "owner - question->first < question->rows" BY "owner - question->first < 0u * question->rows"
     COMPILE lanes_plain)
@@ -133,7 +133,8 @@ if(TARGET test_property)
     occ_caught_by(unmirrored regressions host "mirrored_axes_ignored.obs")
     occ_caught_by(unmirrored metamorphic judged "pairwise, mirrored, camera [0-3]: object [0-9]+ is")
 
-    occ_plant(area_of_its_own IN src/occluders.c COMPILE occluders.c REPLACE "shown >= least * squared * length" BY "shown >= least * 400.0 * length")
+    occ_plant(area_of_its_own IN src/occluders.c COMPILE occluders.c REPLACE "choice->least = frame->knobs.min_area;"
+        BY "choice->least = frame->knobs.min_area * 0.05f * (float)fabs(camera->eye[0]);")
     occ_caught_by(area_of_its_own metamorphic exact "single, scaled, camera [0-3]: object [0-9]+ is")
     occ_plant(odd_one_out IN src/walk.c COMPILE walk.c REPLACE "i = 0; i < count; i++)\n        if (occ_occluders_add(frame, i,"
         BY "i = count % 2 * 400; i < count; i++)\n        if (occ_occluders_add(frame, i,")
@@ -195,6 +196,34 @@ endif()
 occ_plant(frustum_asks_occluders IN src/walk.c REPLACE "attached.count && frame->knobs.method != OCC_METHOD_FRUSTUM" BY "attached.count"
     COMPILE walk.c)
 occ_caught_by(frustum_asks_occluders view stats "Assertion 'stats.walk_hidden . stats.test_hidden . stats.occluders_used == 0' failed")
+
+# --- triangles, and bounds of them ---------------------------------------------------------------
+set(in_overlap IN src/soup/overlap.c COMPILE soup/overlap.c)
+if(TARGET test_overlap)
+    set(other_contact "trial [0-9]+: [012], not [012]")
+    occ_plant(contact_without_error ${in_overlap} REPLACE "(terms / fabs(volume))) * 0x1p-53" BY "(terms / fabs(volume))) * 0x1p-80")
+    occ_caught_by(contact_without_error overlap contacts "${other_contact}")
+    occ_plant(contact_of_edges_without_error ${in_overlap} REPLACE "(16.0 * (e) * (q) + 0x1p-48 * (q) * (q))" BY "(0.0 * (e) * (q))")
+    occ_caught_by(contact_of_edges_without_error overlap contacts "${other_contact}")
+    occ_plant(contact_of_normals_without_error ${in_overlap} REPLACE "(128.0 * (e) * (q) * (q) + 0x1p-44 * (q) * (q) * (q))"
+        BY "(0.0 * (e) * (q))")
+    occ_caught_by(contact_of_normals_without_error overlap contacts "${other_contact}")
+    occ_plant(contact_without_edges ${in_overlap} REPLACE "(void)(try_faces(search, &led, 3) && try_normal(search, &led) && try_edges(search, &led));"
+        BY "(void)(try_faces(search, &led, 3) && try_normal(search, &led) && (search->contact == OCC_APART || try_edges(search, &led) || (search->contact = OCC_ENTERING)));")
+    occ_caught_by(contact_without_edges overlap contacts "${other_contact}")
+    occ_plant(touching_is_apart ${in_overlap} REPLACE "if (low > half || high < -half)" BY "if (low >= half || high < -half)")
+    occ_caught_by(touching_is_apart overlap contacts "${other_contact}")
+endif()
+if(TARGET test_soup_bounds)
+    occ_plant(bounds_unproven IN src/soup/fit_hold.c REPLACE "if (holds_all(points, &ready, reach)) return true;"
+        BY "if (holds_all(points, &ready, reach) || tries == 0) return true;" COMPILE soup/fit_hold.c)
+    occ_caught_by(bounds_unproven soup_bounds inside "[a-z]+ [0-9]+: vertex [0-9]+")
+    occ_plant(bounds_upright IN src/soup/soup_bounds.c REPLACE "(1.0 - 0x1p-10)" BY "0.0" COMPILE soup/soup_bounds.c)
+    occ_caught_by(bounds_upright soup_bounds small "Assertion 'sum / boxes <= 1.02' failed")
+    # What finds the bounds and what verifies them share the test of a point: the judge does not.
+    occ_plant(points_by_luck ${in_overlap} REPLACE "fabs(value) + terms * 0x1p-49 <= reach" BY "fabs(value) - terms * 0x1p-40 <= reach")
+    occ_caught_by(points_by_luck overlap contacts "trial [0-9]+: point")
+endif()
 
 # --- what a tolerance may hide -------------------------------------------------------------------
 if(TARGET test_tolerance)
