@@ -26,6 +26,7 @@ static void read_desc(fuzz_bytes *from, occ_inner_desc *desc, float points[6])
     if (flags & 32) {
         desc->free_count = 2;
         desc->free_points = points;
+        desc->outside_solid = (flags & 16) != 0;
     }
     for (int i = 0; i < 6 && (flags & 32); i++)
         points[i] = read_coordinate(from, flags >> 6);
