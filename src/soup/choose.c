@@ -114,10 +114,9 @@ static occ_result choose(chooser *c, occ_inner_box *boxes, size_t capacity, size
     return OCC_SUCCESS;
 }
 
-occ_result occ_search_choose(occ_search *search, occ_team *team, occ_inner_box *boxes,
-                             size_t capacity, size_t *count)
+occ_result occ_search_choose(occ_search *search, occ_inner_box *boxes, size_t capacity,
+                             size_t *count)
 {
-    (void)team;
     uint32_t candidates = search->candidates.count;
     if (!candidates || !capacity) return OCC_SUCCESS;
     chooser c = {.search = search,

@@ -90,9 +90,8 @@ static occ_result read_soup(occ_search *s, const occ_soup *soup)
     return result;
 }
 
-static void find_body(occ_team *team, void *context)
+static void search_boxes(find_call *call, occ_team *team)
 {
-    find_call *call = context;
     occ_search *s = &call->search;
     call->result = read_soup(s, call->soup);
     if (call->result || !s->mesh.triangles) return;
@@ -100,7 +99,7 @@ static void find_body(occ_team *team, void *context)
     if (!call->result) call->result = occ_search_sites(s, team);
     if (!call->result) call->result = occ_search_candidates(s, team);
     if (!call->result)
-        call->result = occ_search_choose(s, team, call->boxes, call->capacity, &call->count);
+        call->result = occ_search_choose(s, call->boxes, call->capacity, &call->count);
 }
 
 static void free_search(occ_search *s)
@@ -123,6 +122,10 @@ static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_inner_d
                        occ_inner_box *boxes, size_t capacity, size_t *count, occ_inner_stats *stats)
 {
     tally counted;
+    occ_team *team;
+    occ_hooks plain = *hooks; // what threads take is no part of what is counted
+    occ_result result = occ_team_create(&plain, occ_threads_offered(desc->threads), &team);
+    if (result) return occ_fail(hooks, result, "no memory for threads");
     count_bytes(hooks, &counted);
     find_call call = {.search = {.hooks = hooks,
                                  .desc = desc,
@@ -132,7 +135,10 @@ static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_inner_d
                       .soup = soup,
                       .boxes = boxes,
                       .capacity = capacity};
-    occ_with_team(occ_threads_offered(desc->threads), find_body, &call);
+    occ_team_wake(team);
+    search_boxes(&call, team);
+    occ_team_rest(team);
+    occ_team_destroy(&plain, team);
     free_search(&call.search);
     if (stats) {
         occ_soup_counts counts = stats->counts;

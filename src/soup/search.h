@@ -87,7 +87,7 @@ occ_result occ_search_sites(occ_search *search, occ_team *team);
 occ_result occ_search_candidates(occ_search *search, occ_team *team);
 
 // Chooses and grows up to `capacity` of them.
-occ_result occ_search_choose(occ_search *search, occ_team *team, occ_inner_box *boxes,
-                             size_t capacity, size_t *count);
+occ_result occ_search_choose(occ_search *search, occ_inner_box *boxes, size_t capacity,
+                             size_t *count);
 
 #endif

@@ -111,9 +111,8 @@ static occ_result judge_boxes(verify_call *call, occ_team *team)
 
 // --- the call ------------------------------------------------------------------------------------
 
-static void verify_body(occ_team *team, void *context)
+static void verify_boxes(verify_call *call, occ_team *team)
 {
-    verify_call *call = context;
     call->result = occ_mesh_build(call->hooks, call->soup, &call->mesh);
     if (!call->result && call->mesh.triangles)
         call->result = occ_closed_build(call->hooks, &call->mesh, &call->closed);
@@ -154,7 +153,14 @@ static occ_result verify(occ_hooks *hooks, const occ_soup *soup, const occ_inner
     verify_call call = {.hooks = hooks, .soup = soup, .desc = desc, .boxes = boxes, .count = count};
     call.verdicts = occ_alloc(hooks, count * sizeof *call.verdicts);
     if (!call.verdicts) return occ_fail(hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for verdicts");
-    occ_with_team(occ_threads_offered(desc->threads), verify_body, &call);
+    occ_team *team;
+    call.result = occ_team_create(hooks, occ_threads_offered(desc->threads), &team);
+    if (!call.result) {
+        occ_team_wake(team);
+        verify_boxes(&call, team);
+        occ_team_rest(team);
+        occ_team_destroy(hooks, team);
+    }
     occ_result result = call.result;
     if (!result) {
         result = report(&call, fault);
