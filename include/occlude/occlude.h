@@ -46,6 +46,7 @@
 
 #include "base.h"
 #include "cull.h"
+#include "inner.h"
 #include "scene.h"
 #include "soup.h"
 #include "version.h"

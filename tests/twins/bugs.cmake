@@ -256,3 +256,32 @@ occ_caught_by(explains_by_own explain judged "[a-z_]+ [0-9]+: object [0-9]+ is h
 # And one that does not look at the nodes with which an object fell.
 occ_plant(explains_no_nodes ${in_explain} REPLACE "for (uint32_t i = path->count; i-- > 0;)" BY "for (uint32_t i = 0; i-- > 0;)")
 occ_caught_by(explains_no_nodes explain judged "[a-z_]+ [0-9]+: object [0-9]+: OCC_ERROR_CORRUPT")
+
+# --- inner boxes that are not ---------------------------------------------------------------------
+if(TARGET test_inner_random)
+    # A face that grows through triangles: what comes of it is thrown away.
+    occ_plant(grown_through IN src/soup/grow.c REPLACE "if (!occ_ready_box_entered(&ready, corner)) continue;" BY "if (corner[0]) continue;"
+        COMPILE soup/grow.c)
+    occ_caught_by(grown_through inner_random soups "Assertion 'report.boxes >= 1500' failed")
+    # What the search and the verification both get wrong is for the judge.
+    occ_plant(closed_by_flood IN src/soup/free_space.c REPLACE "(!mark->bits.count && !space->outside_solid)" BY "false"
+        COMPILE soup/free_space.c)
+    occ_caught_by(closed_by_flood inner_random soups "soup [0-9]+: box [0-9]+ is in no solid")
+    occ_plant(touched_less IN src/soup/voxels.c REPLACE "#define MARGIN 0x1p-16" BY "#define MARGIN -0x1p-16" COMPILE soup/voxels.c)
+    occ_caught_by(touched_less soup_voxels touched "cell [0-9]+ [0-9]+ [0-9]+ is touched, but not marked")
+endif()
+occ_plant(intruders_unseen IN src/soup/grow.c REPLACE "if (!apart && occ_ready_box_entered(&ready, corner)) return t;" BY "(void)apart;"
+    COMPILE soup/grow.c)
+occ_caught_by(intruders_unseen inner verify "Assertion 'judge.&box, &fault. == OCC_INNER_ENTERED")
+occ_plant(edges_uncut IN src/soup/edges.c REPLACE "fits = cut_edge(&s, u->low, u->high);" BY "fits = u->low < u->high || cut_edge(&s, u->low, u->high);"
+    COMPILE soup/edges.c)
+occ_caught_by(edges_uncut closed lattices "lattice [0-9]+: cell [0-9]+ is closed off, but not marked")
+occ_plant(rules_forgotten IN src/soup/marks.c REPLACE "if (cluster->rule_count)" BY "if (cluster->rule_count > UINT32_MAX / 2)"
+    COMPILE soup/marks.c)
+occ_caught_by(rules_forgotten closed lattices "lattice [0-9]+: cell [0-9]+ is outside, but marked")
+occ_plant(grid_on_trust IN src/soup/verify_inner.c REPLACE "voxels->grid.hole <= call->desc->max_hole &&" BY ""
+    COMPILE soup/verify_inner.c)
+occ_caught_by(grid_on_trust inner verify "Assertion 'occ_verify_inner")
+occ_plant(rooms_filled IN src/soup/free_space.c REPLACE "if (occ_marks_differ(mark, &space->marks[i])) continue;" BY "continue;"
+    COMPILE soup/free_space.c)
+occ_caught_by(rooms_filled inner verify "Assertion 'occ_verify_inner")
