@@ -43,7 +43,7 @@ occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots, size_t c
 {
     occ_result result = occ_view_check(view, count);
     if (!result) result = occ_view_fits(view, slots, capacity, view->frame.stats.visible, count);
-    if (!result) occ_mask_list(&view->mask, slots);
+    if (!result && slots) occ_mask_list(&view->mask, slots);
     return result;
 }
 

@@ -83,7 +83,6 @@ START_TEST(places_are_used_again)
     push(1.0f, 0, OCC_WALK_NODE);
     for (; queue.count; taken++) {
         KIT_CHECK(occ_queue_bucket_of_first(&queue) >= bucket, "back to front");
-        bucket = occ_queue_bucket_of_first(&queue);
         occ_walk_entry entry = occ_queue_pop(&queue);
         for (uint32_t i = 0; i < 3 && pushed < ENTRIES; i++, pushed++)
             push(entry.key * kit_between(&random, 1.0f, 2.0f), pushed, OCC_WALK_NODE);
