@@ -7,7 +7,7 @@
 
 #include <time.h>
 
-#define OVERLAP_OBJECTS 1000u // that the test is left with
+#define OVERLAP_OBJECTS 250u // that the test is left with
 
 static double now_ms(void)
 {
