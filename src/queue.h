@@ -101,12 +101,13 @@ static inline occ_result occ_queue_push(occ_hooks *hooks, occ_queue *queue, occ_
 {
     uint32_t place = queue->unused, list = 2 * occ_queue_bucket(queue, entry.key);
     if (!(entry.what & OCC_WALK_OCCLUDER)) list++;
-    occ_walk_entry *at = (occ_walk_entry *)queue->entries.data + place;
+    occ_walk_entry *at;
     if (place == OCC_QUEUE_END) {
         place = queue->entries.count;
         at = occ_array_push(hooks, &queue->entries);
         if (!at) return OCC_ERROR_OUT_OF_MEMORY;
     } else {
+        at = (occ_walk_entry *)queue->entries.data + place;
         queue->unused = at->next;
     }
     uint64_t bit = 1ull << list % 64;
