@@ -29,22 +29,20 @@ static inline occ_cutter cutter_of(const occ_wide_shadow *shadow, uint32_t p, fl
                         OCC_CUTTER_OFFSET(shadow->plane[3][p], object)};
 }
 
+// |n.a| of a box along the planes of some lanes, in sum.
+static inline fnode reach_along(fnode x, fnode y, fnode z, const float *a)
+{
+    fnode r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
+    r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
+    r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
+    return r;
+}
+
 // How a box and a shadow lie.
 typedef struct contact {
     bool apart;       // it holds nothing of the box
     uint32_t cutting; // planes that cut the box
-    bool held;        // it holds the box's center
 } contact;
-
-// Adds what lanes from `l` on say.
-static inline void meet_planes(contact *met, uint32_t l, uint32_t outside, uint32_t inside,
-                               uint32_t held)
-{
-    const uint32_t all = (1u << OCC_NODE_WIDTH) - 1u;
-    met->apart |= outside != 0;
-    met->cutting |= (inside ^ all) << l;
-    met->held &= held == all;
-}
 
 // The third face, if there is one.
 static inline void meet_last_plane(contact *met, const occ_wide_shadow *shadow,
@@ -56,38 +54,21 @@ static inline void meet_last_plane(contact *met, const occ_wide_shadow *shadow,
     float r = occ_box_reach(box, n[0], n[1], n[2]);
     met->apart = OCC_IS_OUTSIDE(s, r, box->e);
     met->cutting |= (uint32_t)!OCC_IS_INSIDE(s, r, box->e) << OCC_PLANE_LANES;
-    met->held &= s > box->e;
 }
 
-static inline contact meet(const occ_relative_box *box, const occ_wide_shadow *shadow)
+// `upright`: the axes of the box are those of the coordinates, in order.
+static inline contact meet(const occ_relative_box *box, const occ_wide_shadow *shadow, bool upright)
 {
+    const uint32_t all = (1u << OCC_NODE_WIDTH) - 1u;
     const float *t = box->t, *a = box->a;
-    contact met = {.held = true};
+    contact met = {.apart = false};
     for (uint32_t l = 0; l < OCC_PLANE_LANES && !met.apart; l += OCC_NODE_WIDTH) {
         fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
         fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
-        fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
-        fnode r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
-        r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
-        r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
-        fnode e = splat_node(box->e);
-        meet_planes(&met, l, above_node(-e, s + r), above_node(s - r, e), above_node(s, e));
-    }
-    if (!met.apart) meet_last_plane(&met, shadow, box);
-    return met;
-}
-
-// As meet(), for a box whose axes are those of the coordinates, in order.
-static inline contact meet_upright(const occ_relative_box *box, const occ_wide_shadow *shadow)
-{
-    const float *t = box->t, *a = box->a;
-    contact met = {.held = true};
-    for (uint32_t l = 0; l < OCC_PLANE_LANES && !met.apart; l += OCC_NODE_WIDTH) {
-        fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
-        fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
-        fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
-        fnode r = OCC_REACH_OF_AABB(x, y, z, a[0], a[4], a[8]), e = splat_node(box->e);
-        meet_planes(&met, l, above_node(-e, s + r), above_node(s - r, e), above_node(s, e));
+        fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]), e = splat_node(box->e);
+        fnode r = upright ? OCC_REACH_OF_AABB(x, y, z, a[0], a[4], a[8]) : reach_along(x, y, z, a);
+        met.apart = above_node(-e, s + r) != 0;
+        met.cutting |= (above_node(s - r, e) ^ all) << l;
     }
     if (!met.apart) meet_last_plane(&met, shadow, box);
     return met;
@@ -130,10 +111,7 @@ static inline bool is_behind(const occ_relative_box *box, const occ_wide_shadow 
     fnode x = load_node(shadow->plane[0] + l), y = load_node(shadow->plane[1] + l);
     fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
     fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
-    fnode r = OCC_REACH_OF_AXIS(x, y, z, a[0], a[1], a[2]);
-    r += OCC_REACH_OF_AXIS(x, y, z, a[3], a[4], a[5]);
-    r += OCC_REACH_OF_AXIS(x, y, z, a[6], a[7], a[8]);
-    uint32_t inside = above_node(s - r, splat_node(box->e)) << l;
+    uint32_t inside = above_node(s - reach_along(x, y, z, a), splat_node(box->e)) << l;
     if (shadow->planes & ~inside & (3u << OCC_FACE_LANE)) return false;
     return !(shadow->planes >> OCC_PLANE_LANES) || occ_box_in_shadow(box, shadow->last, 1);
 }

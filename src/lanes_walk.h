@@ -10,7 +10,8 @@
 
 static inline contact meet_asked(const occ_question *question, const occ_wide_shadow *shadow)
 {
-    return question->upright ? meet_upright(question->box, shadow) : meet(question->box, shadow);
+    return question->upright ? meet(question->box, shadow, true)
+                             : meet(question->box, shadow, false);
 }
 
 static inline bool is_own(const occ_question *question, const occ_shadow_set *set, uint32_t i)
