@@ -3,6 +3,7 @@
 
 #include "log.h"
 #include "soup/edges.h"
+#include "soup/union_find.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,26 +21,6 @@ typedef struct finder {
     size_t triangles;
     occ_closed *closed;
 } finder;
-
-static uint32_t find_root(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-static void unite(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    if (a < b) {
-        parent[b] = a;
-    } else {
-        parent[a] = b;
-    }
-}
 
 static bool finder_init(finder *f)
 {
@@ -122,13 +103,13 @@ static void join_patches(finder *f)
         for (uint32_t u = f->edges.first[e]; u < f->edges.first[e + 1]; u++) {
             uint32_t t = f->edges.use[u].triangle;
             if (patch[t] == OCC_OPEN) continue;
-            if (other != OCC_OPEN) unite(f->parent, other, t);
+            if (other != OCC_OPEN) occ_union_join(f->parent, other, t);
             other = t;
         }
     }
     for (uint32_t t = 0; t < f->triangles; t++) {
         if (patch[t] == OCC_OPEN) continue;
-        uint32_t root = find_root(f->parent, t);
+        uint32_t root = occ_union_root(f->parent, t);
         patch[t] = root == t ? f->closed->patches++ : patch[root];
     }
 }
@@ -168,10 +149,10 @@ static bool join_clusters(finder *f)
     for (uint32_t e = 0; e < f->edges.count; e++) {
         uint32_t count = f->left[e] > 2 ? patches_at(f, e) : 0;
         for (uint32_t i = 1; i < count; i++)
-            unite(f->parent, f->stack[0], f->stack[i]);
+            occ_union_join(f->parent, f->stack[0], f->stack[i]);
     }
     for (uint32_t p = 0; p < c->patches; p++) {
-        uint32_t root = find_root(f->parent, p);
+        uint32_t root = occ_union_root(f->parent, p);
         if (root == p) {
             occ_cluster *cluster = occ_array_push(f->hooks, &c->clusters);
             if (!cluster) return false;

@@ -6,6 +6,9 @@
 // the box found, and by tilting.
 #include "soup/fit.h"
 
+#include "soup/jacobi.h"
+#include "vector.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -14,17 +17,6 @@ typedef struct fit {
     occ_frame3 frame;
     double measure;
 } fit;
-
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross3(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
 
 static void subtract3(const double a[3], const double b[3], double out[3])
 {
@@ -39,7 +31,7 @@ static bool normalize3(double a[3])
     if (!(most > 0.0)) return false;
     for (int k = 0; k < 3; k++)
         a[k] /= most; // squares of small numbers would vanish
-    double length = sqrt(dot3(a, a));
+    double length = sqrt(occ_dot(a, a));
     for (int k = 0; k < 3; k++)
         a[k] /= length;
     return true;
@@ -53,9 +45,9 @@ static void complete(const double n[3], double u[3], double v[3])
         if (fabs(n[k]) < fabs(n[least])) least = k;
     double unit[3] = {0.0, 0.0, 0.0};
     unit[least] = 1.0;
-    cross3(n, unit, u);
+    occ_cross(n, unit, u);
     normalize3(u);
-    cross3(n, u, v);
+    occ_cross(n, u, v);
 }
 
 // --- the best box for a direction ----------------------------------------------------------------
@@ -128,11 +120,11 @@ static fit fit_along(const occ_sample *sample, const double n[3])
     seen.count = sample->count;
     seen.same = sample->grain * sample->grain * 0x1p-40;
     for (int i = 0; i < sample->count; i++) {
-        double s = dot3(n, sample->at[i]);
+        double s = occ_dot(n, sample->at[i]);
         low = s < low ? s : low;
         high = s > high ? s : high;
-        seen.at[i][0] = dot3(u, sample->at[i]);
-        seen.at[i][1] = dot3(v, sample->at[i]);
+        seen.at[i][0] = occ_dot(u, sample->at[i]);
+        seen.at[i][1] = occ_dot(v, sample->at[i]);
     }
     wrap(&seen, &hull);
     double x = 1.0, y = 0.0;
@@ -156,7 +148,7 @@ static fit fit_along(const occ_sample *sample, const double n[3])
     for (int k = 0; k < 3; k++)
         best.frame.axis[1][k] = x * u[k] + y * v[k];
     normalize3(best.frame.axis[1]);
-    cross3(n, best.frame.axis[1], best.frame.axis[2]);
+    occ_cross(n, best.frame.axis[1], best.frame.axis[2]);
     return best;
 }
 
@@ -188,33 +180,10 @@ static void try_direction(ranking *list, const double direction[3])
     list->at[place] = found;
 }
 
-// One turn of Jacobi's method: makes c[i][j] vanish.
-static void rotate_pair(double c[3][3], double axes[3][3], int i, int j)
-{
-    if (c[i][j] == 0.0) return;
-    double theta = (c[j][j] - c[i][i]) / (2.0 * c[i][j]);
-    double t = (theta < 0.0 ? -1.0 : 1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
-    double cosine = 1.0 / sqrt(t * t + 1.0), sine = t * cosine;
-    for (int k = 0; k < 3; k++) {
-        double a = c[k][i], b = c[k][j];
-        c[k][i] = cosine * a - sine * b;
-        c[k][j] = sine * a + cosine * b;
-    }
-    for (int k = 0; k < 3; k++) {
-        double a = c[i][k], b = c[j][k];
-        c[i][k] = cosine * a - sine * b;
-        c[j][k] = sine * a + cosine * b;
-        a = axes[i][k];
-        b = axes[j][k];
-        axes[i][k] = cosine * a - sine * b;
-        axes[j][k] = sine * a + cosine * b;
-    }
-}
-
 static void try_spread(ranking *list)
 {
     const occ_sample *sample = list->sample;
-    double mean[3] = {0}, c[3][3] = {{0}}, axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double mean[3] = {0}, c[3][3] = {{0}}, axes[3][3];
     for (int i = 0; i < sample->count; i++)
         for (int k = 0; k < 3; k++)
             mean[k] += sample->at[i][k] / sample->count;
@@ -224,9 +193,7 @@ static void try_spread(ranking *list)
         for (int k = 0; k < 9; k++)
             c[k / 3][k % 3] += d[k / 3] * d[k % 3];
     }
-    for (int sweep = 0; sweep < 8; sweep++)
-        for (int k = 0; k < 3; k++)
-            rotate_pair(c, axes, k, (k + 1) % 3);
+    occ_jacobi_axes(c, 8, axes);
     for (int k = 0; k < 3; k++)
         try_direction(list, axes[k]);
 }
@@ -236,7 +203,7 @@ static const double *furthest(const occ_sample *sample, const double n[3], doubl
 {
     const double *found = sample->at[0];
     for (int i = 1; i < sample->count; i++)
-        if (sign * dot3(n, sample->at[i]) > sign * dot3(n, found)) found = sample->at[i];
+        if (sign * occ_dot(n, sample->at[i]) > sign * occ_dot(n, found)) found = sample->at[i];
     return found;
 }
 
@@ -248,7 +215,7 @@ static void find_corners(const occ_sample *sample, const double *corner[FEW], do
     corner[0] = corner[1] = corner[2] = sample->at[0];
     for (int i = 0; i + 1 < sample->count; i += 2) { // pairs of opposite extremes come first
         subtract3(sample->at[i + 1], sample->at[i], e);
-        double length = dot3(e, e);
+        double length = occ_dot(e, e);
         if (length <= most) continue;
         most = length;
         corner[0] = sample->at[i];
@@ -259,8 +226,8 @@ static void find_corners(const occ_sample *sample, const double *corner[FEW], do
     for (int i = 0; i < sample->count; i++) {
         double d[3], n[3];
         subtract3(sample->at[i], corner[0], d);
-        cross3(e, d, n);
-        double off = dot3(n, n);
+        occ_cross(e, d, n);
+        double off = occ_dot(n, n);
         if (off <= most) continue;
         most = off;
         corner[2] = sample->at[i];
@@ -282,7 +249,7 @@ static void try_tetrahedra(ranking *list)
         for (int top = 3; top < FEW; top++) {
             subtract3(corner[top], corner[i], f);
             try_direction(list, f);
-            cross3(e, f, normal);
+            occ_cross(e, f, normal);
             try_direction(list, normal);
         }
     }

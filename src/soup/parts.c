@@ -2,6 +2,7 @@
 #include "soup/parts.h"
 
 #include "log.h"
+#include "soup/union_find.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,26 +22,6 @@ typedef struct cutter {
     piece *pieces;
     occ_array *parts;
 } cutter;
-
-static uint32_t root_of(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b) {
-        parent[b] = a;
-    } else {
-        parent[a] = b;
-    }
-}
 
 static void extend(float min[3], float max[3], const float low[3], const float high[3])
 {
@@ -105,11 +86,11 @@ static uint32_t number_pieces(const occ_mesh *mesh, uint32_t *piece_of)
     for (uint32_t v = 0; v < mesh->vertices; v++)
         piece_of[v] = v;
     for (uint32_t t = 0; t < mesh->triangles; t++) {
-        join(piece_of, mesh->corner[t][0], mesh->corner[t][1]);
-        join(piece_of, mesh->corner[t][1], mesh->corner[t][2]);
+        occ_union_join(piece_of, mesh->corner[t][0], mesh->corner[t][1]);
+        occ_union_join(piece_of, mesh->corner[t][1], mesh->corner[t][2]);
     }
     for (uint32_t v = 0; v < mesh->vertices; v++)
-        piece_of[v] = root_of(piece_of, v);
+        piece_of[v] = occ_union_root(piece_of, v);
     uint32_t count = 0;
     for (uint32_t v = 0; v < mesh->vertices; v++) // a root comes before what hangs from it
         piece_of[v] = piece_of[v] == v ? count++ : piece_of[piece_of[v]];

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soup/turned.h"
 
+#include "soup/jacobi.h"
+#include "vector.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -12,24 +15,13 @@ typedef struct bin {
     double sum[3], area; // normals times twice the area, and its length
 } bin;
 
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static bool normalise(double v[3])
 {
-    double length = sqrt(dot3(v, v));
+    double length = sqrt(occ_dot(v, v));
     if (!(length > 0.0) || !(length < INFINITY)) return false;
     for (int k = 0; k < 3; k++)
         v[k] /= length;
     return true;
-}
-
-static void cross3(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
 // Twice the area times the normal.
@@ -41,7 +33,7 @@ static void area_vector(const occ_mesh *mesh, uint32_t triangle, double out[3])
         u[k] = (double)occ_mesh_corner(mesh, triangle, 1)[k] - p;
         v[k] = (double)occ_mesh_corner(mesh, triangle, 2)[k] - p;
     }
-    cross3(u, v, out);
+    occ_cross(u, v, out);
 }
 
 static uint32_t bin_coordinate(double at)
@@ -66,7 +58,7 @@ static void fill_bins(const occ_triangles *t, bin bins[3 * BINS * BINS])
         bin *b = &bins[((uint32_t)k * BINS + u) * BINS + v];
         for (int j = 0; j < 3; j++)
             b->sum[j] += turn * n[j];
-        b->area += sqrt(dot3(n, n));
+        b->area += sqrt(occ_dot(n, n));
     }
 }
 
@@ -79,7 +71,7 @@ static bool find_direction(const bin *bins, const double *across, double least, 
         double n[3];
         if (bins[i].area <= most) continue;
         memcpy(n, bins[i].sum, sizeof n);
-        if (!normalise(n) || (across && fabs(dot3(n, across)) > 0.05)) continue;
+        if (!normalise(n) || (across && fabs(occ_dot(n, across)) > 0.05)) continue;
         most = bins[i].area;
         found = true;
         memcpy(out, n, sizeof n);
@@ -96,11 +88,11 @@ static bool axes_of_normals(const occ_triangles *t, double a[3][3])
         area += bins[i].area;
     if (!find_direction(bins, NULL, LEAST_SHARE * area, a[0])) return false;
     if (!find_direction(bins, a[0], LEAST_SHARE * area, a[1])) return false;
-    double off = dot3(a[0], a[1]);
+    double off = occ_dot(a[0], a[1]);
     for (int k = 0; k < 3; k++)
         a[1][k] -= off * a[0][k];
     if (!normalise(a[1])) return false;
-    cross3(a[0], a[1], a[2]);
+    occ_cross(a[0], a[1], a[2]);
     return true;
 }
 
@@ -113,7 +105,7 @@ static bool find_moments(const occ_triangles *t, double m[3][3])
         for (uint32_t i = 0; i < t->count; i++) {
             double n[3], p[4][3];
             area_vector(t->mesh, occ_triangle_at(t, i), n);
-            double area = sqrt(dot3(n, n));
+            double area = sqrt(occ_dot(n, n));
             for (int k = 0; k < 3; k++) {
                 p[3][k] = 0.0;
                 for (int c = 0; c < 3; c++) {
@@ -132,39 +124,11 @@ static bool find_moments(const occ_triangles *t, double m[3][3])
     return weight > 0.0 && m[0][0] + m[1][1] + m[2][2] < INFINITY;
 }
 
-// Makes one element off the diagonal zero by a turn (Jacobi).
-static void turn_away(double m[3][3], double a[3][3], int p, int q)
-{
-    if (m[p][q] == 0.0) return;
-    double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-    double t = (theta < 0.0 ? -1.0 : 1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
-    double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
-    for (int k = 0; k < 3; k++) {
-        double x = m[k][p], y = m[k][q];
-        m[k][p] = c * x - s * y;
-        m[k][q] = s * x + c * y;
-    }
-    for (int k = 0; k < 3; k++) {
-        double x = m[p][k], y = m[q][k];
-        m[p][k] = c * x - s * y;
-        m[q][k] = s * x + c * y;
-        x = a[p][k];
-        y = a[q][k];
-        a[p][k] = c * x - s * y;
-        a[q][k] = s * x + c * y;
-    }
-}
-
 static bool axes_of_extent(const occ_triangles *t, double a[3][3])
 {
     double m[3][3];
     if (!find_moments(t, m)) return false;
-    for (int j = 0; j < 3; j++)
-        for (int k = 0; k < 3; k++)
-            a[j][k] = j == k;
-    for (int round = 0; round < 12; round++)
-        for (int k = 0; k < 3; k++)
-            turn_away(m, a, k, (k + 1) % 3);
+    occ_jacobi_axes(m, 12, a);
     return normalise(a[0]) && normalise(a[1]) && normalise(a[2]);
 }
 
@@ -175,8 +139,8 @@ static bool are_same(const double a[3][3], const float b[3][3])
         bool found = false;
         for (int j = 0; j < 3; j++) {
             double other[3] = {(double)b[j][0], (double)b[j][1], (double)b[j][2]}, off[3];
-            cross3(a[i], other, off);
-            found |= dot3(off, off) < NEARLY * NEARLY;
+            occ_cross(a[i], other, off);
+            found |= occ_dot(off, off) < NEARLY * NEARLY;
         }
         if (!found) return false;
     }
