@@ -100,12 +100,8 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
         {"--rays", OPTIONS_TEXT, &arguments->rays},
         {"--force", OPTIONS_FLAG, &arguments->force},
         {NULL, OPTIONS_FLAG, NULL}};
-    char *words[1];
-    int count = options_parse(argc, argv, entries, words, 1);
-    if (count == OPTIONS_HELP) return OPTIONS_HELP;
-    if (count == OPTIONS_BAD) return 2;
-    if (count != 1) return options_complain(argv[0], "expected a scene file");
-    arguments->scene = words[0];
+    int status = options_parse_scene(argc, argv, entries, &arguments->scene);
+    if (status) return status;
     settings->knobs.min_area = (float)arguments->min_area;
     settings->knobs.tolerance = (float)arguments->tolerance;
     if (settings->knobs.tolerance > OCC_MAX_TOLERANCE)

@@ -13,6 +13,17 @@ int options_complain(const char *command, const char *what)
     return 2;
 }
 
+int options_parse_scene(int argc, char **argv, const options_entry *entries, const char **scene)
+{
+    char *words[1];
+    int count = options_parse(argc, argv, entries, words, 1);
+    if (count == OPTIONS_HELP) return OPTIONS_HELP;
+    if (count == OPTIONS_BAD) return 2;
+    if (count != 1) return options_complain(argv[0], "expected a scene file");
+    *scene = words[0];
+    return 0;
+}
+
 static int complain_about(const char *command, const char *argument, const char *what)
 {
     char line[512];

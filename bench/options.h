@@ -29,6 +29,10 @@ enum { OPTIONS_BAD = -1, OPTIONS_HELP = -2 };
 /// standard error.
 int options_parse(int argc, char **argv, const options_entry *entries, char **words, int capacity);
 
+/// The same for a subcommand whose one word is a scene file. Returns 0, OPTIONS_HELP, or 2 after a
+/// complaint.
+int options_parse_scene(int argc, char **argv, const options_entry *entries, const char **scene);
+
 /// One line about bad usage on standard error. Returns the exit status 2.
 int options_complain(const char *command, const char *what);
 

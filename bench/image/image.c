@@ -111,12 +111,8 @@ static int parse_image(int argc, char **argv, image_arguments *arguments)
         {"--pictures", OPTIONS_TEXT, &arguments->pictures},
         {"--csv", OPTIONS_TEXT, &arguments->csv},
         {NULL, OPTIONS_FLAG, NULL}};
-    char *words[1];
-    int count = options_parse(argc, argv, entries, words, 1);
-    if (count == OPTIONS_HELP) return OPTIONS_HELP;
-    if (count == OPTIONS_BAD) return 2;
-    if (count != 1) return options_complain(argv[0], "expected a scene file");
-    arguments->scene = words[0];
+    int status = options_parse_scene(argc, argv, entries, &arguments->scene);
+    if (status) return status;
     const char *complaint = complete_arguments(arguments);
     return complaint ? options_complain(argv[0], complaint) : 0;
 }

@@ -36,16 +36,12 @@ static int parse_truth(int argc, char **argv, truth_arguments *arguments)
                                      {"--frames", OPTIONS_TEXT, &arguments->frames},
                                      {"--size", OPTIONS_TEXT, &arguments->size},
                                      {NULL, OPTIONS_FLAG, NULL}};
-    char *words[1];
-    int count = options_parse(argc, argv, entries, words, 1);
-    if (count == OPTIONS_HELP) return OPTIONS_HELP;
-    if (count == OPTIONS_BAD) return 2;
-    if (count != 1) return options_complain(argv[0], "expected a scene file");
+    int status = options_parse_scene(argc, argv, entries, &arguments->scene);
+    if (status) return status;
     if (!arguments->out) return options_complain(argv[0], "expected --out T.tru");
     const options_extent least = {1, 1};
     if (!options_size(arguments->size, least, TRUTH_MAX_SIDE, &arguments->extent))
         return options_complain(argv[0], "expected --size as 4096x2304, 16384x16384 at most");
-    arguments->scene = words[0];
     return 0;
 }
 
