@@ -122,6 +122,7 @@ static bool find_frame(sheet_frame *best, const occ_sheet *sheet)
 {
     sheet_frame frame;
     double least = INFINITY, normal[3], extent = 0.0;
+    *best = (sheet_frame){.low = {0.0}};
     occ_sheet_normal(sheet, normal);
     for (uint32_t i = 0; i < sheet->corner_count; i++) {
         edge_of(sheet, i, frame.axis[0]);
