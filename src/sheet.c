@@ -146,7 +146,7 @@ static bool find_frame(sheet_frame *best, const occ_sheet *sheet)
             occ_cross(frame.axis[0], frame.axis[1], turn);
             double sizes = occ_dot(frame.axis[0], frame.axis[0]);
             sizes *= occ_dot(frame.axis[1], frame.axis[1]);
-            if (occ_dot(turn, turn) > sizes * 0x1p-10) offer(best, &least, &frame, sheet);
+            if (occ_dot(turn, turn) > sizes * 0x1p-20) offer(best, &least, &frame, sheet);
         }
     }
     return least < INFINITY;
