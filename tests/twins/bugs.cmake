@@ -241,6 +241,38 @@ if(TARGET test_tolerance)
     occ_caught_by(tolerance_of_points tolerance random "world [0-9]+: object [0-9]+ is hidden, but seen far from all outlines")
 endif()
 
+# --- sheets ----------------------------------------------------------------------------------------
+set(in_sheet IN src/shadow_sheet.c COMPILE shadow_sheet.c)
+if(TARGET test_sheet_shadow)
+    occ_plant(sheet_without_an_edge ${in_sheet} REPLACE "uint32_t i = odd; i < l->count; i += 2"
+        BY "uint32_t i = odd; i + 1 < l->count; i += 2")
+    occ_caught_by(sheet_without_an_edge sheet_shadow exact "trial [0-9]+: an edge has no plane")
+    occ_plant(sheet_from_its_nearest_corner ${in_sheet} REPLACE "-l.high, l.error" BY "-l.low, l.error")
+    occ_caught_by(sheet_from_its_nearest_corner sheet_shadow exact "inward by [-+.0-9e]+ u.d.")
+    occ_plant(sheet_of_any_side ${in_sheet} REPLACE "OCC_SIDES_FRONT && l->turn > 0.0" BY "OCC_SIDES_FRONT && l->turn > 2.0")
+    occ_caught_by(sheet_of_any_side sheet_shadow exact "trial [0-9]+: from behind")
+    occ_plant(sheet_around_the_eye ${in_sheet} REPLACE "return l->low > l->error" BY "return l->high > l->error")
+    occ_caught_by(sheet_around_the_eye sheet_shadow exact "the eye is behind a corner")
+    occ_plant(sheet_without_sight_error ${in_sheet} REPLACE "return l->low > l->error" BY "return l->low > 0.0 * l->error")
+    occ_caught_by(sheet_without_sight_error sheet_shadow exact "(the eye is behind a corner|inward by)")
+    occ_plant(sheet_with_a_wide_notch ${in_sheet} REPLACE "l->corner[k]) > slack" BY "l->corner[k]) > slack - 1e300")
+    occ_caught_by(sheet_with_a_wide_notch sheet_shadow exact "a point off by [-+.0-9e]+ of the tolerance is held")
+endif()
+if(TARGET test_sheet_verdicts)
+    occ_plant(sheet_cut_open ${in_sheet} REPLACE "|| !survives_near(&l, camera)" BY "|| (0 && !survives_near(&l, camera))")
+    occ_caught_by(sheet_cut_open sheet_verdicts flat_boxes "seed [0-9]+, frame [0-9]+")
+    occ_plant(sheet_with_a_corner_twice ${in_sheet} REPLACE "sheet->corner[before])) continue;" BY "sheet->corner[before])) {}")
+    occ_caught_by(sheet_with_a_corner_twice sheet_verdicts by_hand "Assertion 'hides..twice, .behind")
+endif()
+if(TARGET test_sheet_frames)
+    # Edges in the lanes in which boxes have faces are none.
+    foreach(isa IN LISTS occ_planted_lanes)
+        occ_plant(sheet_with_more_faces_${isa} IN src/lanes_fusion.h REPLACE "shadow->faces & ~inside & 0xffu"
+            BY "shadow->planes & ~inside & (3u << OCC_FACE_LANE)" COMPILE lanes_${isa})
+        occ_caught_by(sheet_with_more_faces_${isa} sheet_frames shapes "[a-z0-9]+: (another mask|other counts)")
+    endforeach()
+endif()
+
 # --- an explanation that leaves out an occluder --------------------------------------------------
 set(in_explain IN src/explain.c COMPILE explain.c)
 set(past_those "[a-z_]+ [0-9]+: object [0-9]+ can be seen past the [0-9]+ that hide it")
