@@ -228,6 +228,20 @@ static bool edges_have_planes(workshop *w, const occ_sheet *sheet, const occ_cam
     return edges == shadow->silhouettes && edges + 1 == shadow->planes;
 }
 
+// -1 if the corners go counterclockwise for the eye, else 1.
+static int turn_of(workshop *w, const occ_sheet *sheet, const occ_camera *camera)
+{
+    double normal[3];
+    occ_sheet_normal(sheet, normal);
+    for (int j = 0; j < 3; j++) {
+        mpq_set_d(w->n[j], normal[j]);
+        mpq_set(w->ray[j], w->corner[0][j]);
+        if (camera->orthographic) mpq_set_d(w->ray[j], -camera->toward[j]);
+    }
+    set_dot(w, w->d, w->n, w->ray);
+    return mpq_sgn(w->d) < 0 ? -1 : 1;
+}
+
 // The plane across: the eye before all corners, and what it holds beyond them.
 static void check_face(workshop *w, const occ_sheet *sheet, const occ_camera *camera,
                        const occ_shadow *shadow, int turn)
@@ -265,8 +279,8 @@ START_TEST(every_plane_is_next_to_the_exact_one_and_inside)
         occ_shadow shadow;
         if (!occ_shadow_of_sheet(&shadow, &frame.camera, &sheet, OCC_NOBODY)) continue;
         set_corners(&w, &sheet, &frame.camera);
-        int turn = edges_have_planes(&w, &sheet, &frame.camera, &shadow, -1) ? -1 : 1;
-        KIT_CHECK(turn < 0 || edges_have_planes(&w, &sheet, &frame.camera, &shadow, 1),
+        int turn = turn_of(&w, &sheet, &frame.camera);
+        KIT_CHECK(edges_have_planes(&w, &sheet, &frame.camera, &shadow, turn),
                   "trial %d: an edge has no plane", trial);
         KIT_CHECK(turn < 0 || sheet.sides == OCC_SIDES_BOTH, "trial %d: from behind", trial);
         check_face(&w, &sheet, &frame.camera, &shadow, turn);
