@@ -314,7 +314,7 @@ static void any_point(kit_random *random, const occ_sheet *sheet, const sight_fr
         for (int j = 0; j < 3; j++)
             middle[j] += (double)sheet->corner[k][j] / n;
     for (int j = 0; j < 3; j++) {
-        double a = (double)sheet->corner[i][j], b = (double)sheet->corner[(i + 1) % n][j];
+        double a = (double)sheet->corner[i][j], b = (double)sheet->corner[i + 1 < n ? i + 1 : 0][j];
         double at = a + t * (b - a);
         at += in * (middle[j] - at);
         point[j] = from->direction ? at - beyond * from->at[j] : at + beyond * (at - from->at[j]);
@@ -403,7 +403,7 @@ static void point_beside(kit_random *random, const occ_sheet *sheet, const doubl
     double beyond = world_scale(random, 1e-3, 10);
     world_direction(random, off);
     for (int j = 0; j < 3; j++) {
-        double a = (double)sheet->corner[i][j], b = (double)sheet->corner[(i + 1) % n][j];
+        double a = (double)sheet->corner[i][j], b = (double)sheet->corner[i + 1 < n ? i + 1 : 0][j];
         point[j] = a + t * (b - a) - eye[j];
         length += point[j] * point[j];
     }
