@@ -8,6 +8,7 @@
 #include "boxes.h"
 #include "octree.h"
 #include "screen.h"
+#include "shadow.h"
 #include "verdict.h"
 
 #define OCC_NODE_LANES   8u
@@ -84,6 +85,9 @@ typedef struct occ_question {
 
 typedef struct occ_lanes {
     const char *name;
+
+    // Makes the shadow volume of an occluder (shadow.h).
+    occ_shade *shade;
 
     // Where a box is on the screen.
     void (*project)(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen);

@@ -2,7 +2,6 @@
 // The set of occluders that a frame has found so far.
 #include "frame.h"
 
-#include "shadow.h"
 #include "vector.h"
 
 _Static_assert(OCC_NO_SLOT == OCC_NOBODY, "an owner's row is what a shadow knows of it");
@@ -37,9 +36,9 @@ bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)
 }
 
 // How far outside of its bounds on the screen an occluder's shadow may reach. Projections round by
-// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by less
-// than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) / (w +
-// dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
+// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by
+// less than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) /
+// (w + dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
 static float room_around(const occ_camera *camera, const occ_projection *seen, int j)
 {
     const occ_screen *screen = &camera->screen;
@@ -78,7 +77,7 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
     if (!occ_frame_extend(frame, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
-    if (!occ_shadow_init(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
+    if (!frame->lanes->shade(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);
     *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
     if (!lane)
