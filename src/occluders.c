@@ -15,7 +15,8 @@ void occ_occluders_prepare(occ_frame *frame)
 {
     const occ_camera *camera = &frame->camera;
     occ_selection *choice = &frame->selection;
-    *choice = (occ_selection){.eye = &camera->constants, .orthographic = camera->orthographic};
+    *choice = (occ_selection){
+        .eye = &camera->constants, .screen = &camera->screen, .orthographic = camera->orthographic};
     choice->least = frame->knobs.min_area;
     choice->scale = 1.0f;
     for (int j = 0; j < 3; j++)

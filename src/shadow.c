@@ -54,12 +54,11 @@ typedef struct solid {
 static inline void set_solid(solid *s, const occ_camera *camera, const occ_box *box)
 {
     for (int j = 0; j < 3; j++) {
-        s->axis[j] = make_quad((double)box->axis[0][j], (double)box->axis[1][j],
-                               (double)box->axis[2][j], 0.0);
-        double center = (double)box->center[j] - camera->eye[j];
-        quad sum = abs_quad(s->axis[j]);
+        double a = (double)box->axis[0][j], b = (double)box->axis[1][j];
+        double c = (double)box->axis[2][j], center = (double)box->center[j] - camera->eye[j];
+        s->axis[j] = make_quad(a, b, c, c); // not 0: valgrind 3.19 lacks gcc's way to that
         s->center[j] = splat_quad(center);
-        s->size[j] = splat_quad(fabs(center) + camera->doubt[j] + sum[0] + sum[1] + sum[2]);
+        s->size[j] = splat_quad(fabs(center) + camera->doubt[j] + fabs(a) + fabs(b) + fabs(c));
     }
     quad next[3], after[3];
     for (int j = 0; j < 3; j++) {

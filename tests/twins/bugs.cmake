@@ -69,8 +69,8 @@ occ_plant(swapped_side ${in_shadow} REPLACE "s->facing = where_quad(ahead," BY "
 occ_caught_by(swapped_side shadow "by hand" "Assertion 'hides_from.5, 0, 0, &sheet, &left.' failed")
 
 # --- an occluder grown by one part in a million --------------------------------------------------
-occ_plant(grown ${in_shadow} REPLACE "(double)box->axis[2][j], 0.0);"
-    BY "(double)box->axis[2][j], 0.0) * 1.000001;")
+occ_plant(grown ${in_shadow} REPLACE "make_quad(a, b, c, c);"
+    BY "make_quad(a, b, c, c) * 1.000001;")
 occ_caught_by(grown shadow "by hand" "Assertion 'hides_from.1001, 0, 0, &wall, &by_its_face. ==")
 occ_caught_by(grown shadow_planes exact "a normal is off by [.0-9]+ u")
 
