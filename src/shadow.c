@@ -329,8 +329,9 @@ bool OCC_SHADE(OCC_LANES_NAME)(occ_shadow *shadow, const occ_camera *camera, con
     if (!seen || !survives_near(&s, camera, seen)) return false;
     shadow->planes = 0;
     shadow->owner = owner;
-    memset(shadow->pad, 0, sizeof shadow->pad);
+    shadow->pad = 0;
     if (!add_silhouettes(shadow, &s, camera)) return false;
+    shadow->silhouettes = shadow->planes;
     plane_quad faces;
     set_face_planes(&faces, &s);
     return add_planes(shadow, &faces, seen, 3);

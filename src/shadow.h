@@ -16,4 +16,9 @@ typedef bool occ_shade(occ_shadow *shadow, const occ_camera *camera, const occ_b
 #define OCC_SHADE(isa)  OCC_SHADE2(isa)
 extern occ_shade occ_shade_plain, occ_shade_avx2, occ_shade_avx512;
 
+// The same of a sheet (shadow_sheet.c). False also if the eye is not, for certain, on a side from
+// which it hides, or if it has no area.
+bool occ_shadow_of_sheet(occ_shadow *shadow, const occ_camera *camera, const occ_sheet *sheet,
+                         uint32_t owner);
+
 #endif
