@@ -6,7 +6,6 @@
 #include "oracle_data.h"
 
 #include "kit_sheets.h"
-#include "shadow.h"
 #include "support.h"
 #include "verdicts.h"
 #include "worlds.h"
@@ -228,7 +227,7 @@ static bool any_shadow(occ_shadow *shadow, const occ_camera *camera, const occ_b
 {
     const occ_sheet face = kit_sheet_of_box(box);
     return sheet ? occ_shadow_of_sheet(shadow, camera, &face, OCC_NOBODY)
-                 : occ_shadow_init(shadow, camera, box, OCC_NOBODY);
+                 : occ_lanes_choose()->shade(shadow, camera, box, OCC_NOBODY);
 }
 
 // A silhouette belongs to the eye that the matrix has, which is where double cannot put it.
