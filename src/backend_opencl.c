@@ -19,6 +19,7 @@ enum { BOXES, EYE, SHADOWS, RANGES, CANDIDATES, VERDICTS, ARRAYS };
 typedef struct opencl_backend {
     occ_tester base;
     occ_cl_device device;
+    cl_kernel kernel;
     cl_array array[ARRAYS];
     uint64_t scene;    // whose boxes are on the device, 0: nobody's
     uint64_t revision; // as of which commit
@@ -136,7 +137,7 @@ static occ_result send_job(opencl_backend *backend, const occ_test_job *job)
 
 static occ_result set_arguments(opencl_backend *backend)
 {
-    cl_kernel kernel = backend->device.test;
+    cl_kernel kernel = backend->kernel;
     cl_uint argument = 0;
     cl_int error = CL_SUCCESS;
     for (int which = BOXES; which < ARRAYS && !error; which++) {
@@ -154,8 +155,8 @@ static occ_result test(occ_tester *base, const occ_test_job *job)
     if (!result) result = set_arguments(backend);
     if (result) return give_up(backend, result);
     size_t group = OCC_RANGE_OBJECTS, items = group * job->range_count;
-    cl_int error = clEnqueueNDRangeKernel(backend->device.queue, backend->device.test, 1, NULL,
-                                          &items, &group, 0, NULL, NULL);
+    cl_int error = clEnqueueNDRangeKernel(backend->device.queue, backend->kernel, 1, NULL, &items,
+                                          &group, 0, NULL, NULL);
     if (error) {
         return give_up(backend, occ_cl_fail(base->hooks, error, "clEnqueueNDRangeKernel"));
     }
@@ -178,6 +179,7 @@ static void destroy(occ_tester *base)
     if (backend->device.queue) (void)clFinish(backend->device.queue);
     for (int which = 0; which < ARRAYS; which++)
         if (backend->array[which].memory) (void)clReleaseMemObject(backend->array[which].memory);
+    if (backend->kernel) (void)clReleaseKernel(backend->kernel);
     occ_cl_device_close(&backend->device);
     occ_free(base->hooks, backend, sizeof *backend);
 }
@@ -187,13 +189,17 @@ static const occ_backend_ops opencl_ops = {"opencl", upload, test, NULL, read_ve
 occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **backend)
 {
     static const occ_cl_desc defaults;
+    static const char *const files[] = {"test.cl", NULL};
     opencl_backend *made = occ_alloc(hooks, sizeof *made);
     *backend = NULL;
     if (!made) return OCC_ERROR_OUT_OF_MEMORY;
     *made = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
-    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults);
+    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults, files);
+    if (!result) {
+        result = occ_cl_kernel(&made->device, hooks, "occ_test", OCC_RANGE_OBJECTS, &made->kernel);
+    }
     if (result) {
-        occ_free(hooks, made, sizeof *made);
+        destroy(&made->base);
         return result;
     }
     *backend = &made->base;

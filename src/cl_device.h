@@ -12,12 +12,20 @@ typedef struct occ_cl_device {
     cl_context context;
     cl_command_queue queue;
     cl_program program;
-    cl_kernel test;
     cl_ulong largest_buffer; // bytes
+    cl_uint units;           // multiprocessors, or cores
+    cl_device_type type;
 } occ_cl_device;
 
-// Finds the device, or takes the caller's, and builds the kernels. On failure nothing is left open.
-occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc);
+// Finds the device, or takes the caller's, and builds the files of kernels that are named: a list
+// that ends with NULL. On failure nothing is left open.
+occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc,
+                              const char *const *kernels);
+
+// Makes a kernel; fails if the device cannot run it in groups of so many. `*kernel` is the caller's
+// to release even then, or NULL.
+occ_result occ_cl_kernel(const occ_cl_device *device, const occ_hooks *hooks, const char *name,
+                         size_t group, cl_kernel *kernel);
 
 void occ_cl_device_close(occ_cl_device *device);
 
