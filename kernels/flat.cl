@@ -8,6 +8,8 @@
 // and, from bit 8 on, which planes of the frustum may cut it.
 #include "flat.h"
 
+#define QUARTERS             4u // items to a block of a group, and to an object of a block
+#define FLAT_ITEMS           (QUARTERS * 64u)
 #define FRAME_SHADOWS(frame) ((__global const occ_shadow *)((frame) + 1))
 
 // --- boxes in ------------------------------------------------------------------------------------
@@ -108,25 +110,33 @@ inline void load_node(occ_relative_box *box, __global const float *bounds, uint 
     occ_flat_node(box, least, most, eye);
 }
 
-// Lists the occluders that touch a block, of those that touch its group. Returns how many, or
-// OCC_FLAT_OUTSIDE if one holds all of it.
-inline uint list_block(const occ_relative_box *box, __global const occ_shadow *shadows,
-                       __local const uint *touch, uint words, uint first, __global uint *list)
+// Asks every QUARTERS-th of the shadows that touch the group, from the quarter's own on, about a
+// block: `near` gets a bit for each that touches it.
+inline void ask_block(const occ_relative_box *box, __global const occ_shadow *shadows,
+                      __local const uint *touch, uint words, uint quarter, uint first,
+                      __local uint *near, __local uint *held)
 {
-    uint count = 0;
     for (uint w = 0; w < words; w++) {
-        for (uint bits = touch[w]; bits; bits &= bits - 1u) {
-            uint index = 32u * w + (31u - clz(bits & (0u - bits)));
+        for (uint bits = touch[w] & 0x11111111u << quarter; bits; bits &= bits - 1u) {
+            uint bit = bits & (0u - bits), index = 32u * w + (31u - clz(bit));
             uint met = occ_flat_meet_node(box, &shadows[index], first, first + OCC_FLAT_ROWS);
-            if (met == OCC_MEET_HELD) return OCC_FLAT_OUTSIDE;
-            if (met == OCC_MEET_APART || count == OCC_FLAT_LIST) continue;
-            list[count++] = index;
+            if (met == OCC_MEET_HELD) atomic_or(held, 1u);
+            if (met != OCC_MEET_APART) atomic_or(&near[w], bit);
         }
     }
+}
+
+// Lists the bits. Returns how many; what is beyond OCC_FLAT_LIST is left out.
+inline uint list_bits(__local const uint *near, uint words, __global uint *list)
+{
+    uint count = 0;
+    for (uint w = 0; w < words && count < OCC_FLAT_LIST; w++)
+        for (uint bits = near[w]; bits && count < OCC_FLAT_LIST; bits &= bits - 1u)
+            list[count++] = 32u * w + (31u - clz(bits & (0u - bits)));
     return count;
 }
 
-// An item takes every 64th shadow: does it touch the group, or hold all of it? Returns the planes
+// An item takes every 256th shadow: does it touch the group, or hold all of it? Returns the planes
 // of the frustum that may cut the group.
 inline uint touch_group(__global const occ_flat_frame *frame, __global const occ_shadow *shadows,
                         __global const float *bounds, uint groups, uint group, uint item,
@@ -138,7 +148,7 @@ inline uint touch_group(__global const occ_flat_frame *frame, __global const occ
     load_node(&box, bounds, groups, group, &frame->eye);
     uint planes = occ_flat_cut(&box, &frame->eye, frame->planes);
     if (planes == OCC_FLAT_OUTSIDE) return planes;
-    for (uint s = item; s < frame->shadows; s += OCC_FLAT_BLOCKS) {
+    for (uint s = item; s < frame->shadows; s += FLAT_ITEMS) {
         uint met = occ_flat_meet_node(&box, &shadows[s], first, end);
         if (met == OCC_MEET_HELD) atomic_or(held, 1u);
         if (met != OCC_MEET_APART) atomic_or(&touch[s / 32u], 1u << (s % 32u));
@@ -146,37 +156,48 @@ inline uint touch_group(__global const occ_flat_frame *frame, __global const occ
     return planes;
 }
 
-// A work-group takes a group: which occluders touch it, shadow by shadow, then an item a block.
-__kernel __attribute__((reqd_work_group_size(OCC_FLAT_BLOCKS, 1, 1))) void
+// A work-group takes a group: which occluders touch it, shadow by shadow, then four items a block.
+__kernel __attribute__((reqd_work_group_size(FLAT_ITEMS, 1, 1))) void
 occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *bounds, uint rows,
                 uint blocks, uint groups, __global uint *counts, __global uint *open,
                 __global uint *states, __global uint *lists, __global uint *mask, uint words)
 {
-    __local uint touch[OCC_FLAT_WORDS];
-    __local uint held;
+    __local uint touch[OCC_FLAT_WORDS], near[OCC_FLAT_BLOCKS][OCC_FLAT_WORDS + 1u];
+    __local uint all_held, held[OCC_FLAT_BLOCKS];
     uint item = (uint)get_local_id(0), group = (uint)get_group_id(0);
+    uint b = item % OCC_FLAT_BLOCKS, used = (frame->shadows + 31u) / 32u;
     __global const occ_shadow *shadows = FRAME_SHADOWS(frame);
     if (group == 0 && item < OCC_COUNTS) counts[(frame->counts ^ 1u) * OCC_COUNTS + item] = 0u;
     for (uint w = (uint)get_global_id(0); w < words; w += (uint)get_global_size(0))
         mask[w] = 0u;
-    for (uint w = item; w < OCC_FLAT_WORDS; w += OCC_FLAT_BLOCKS)
+    for (uint w = item; w < OCC_FLAT_WORDS; w += FLAT_ITEMS)
         touch[w] = 0u;
-    if (item == 0) held = 0u;
+    for (uint w = item / OCC_FLAT_BLOCKS; w < used; w += QUARTERS)
+        near[b][w] = 0u;
+    if (item < OCC_FLAT_BLOCKS) held[item] = 0u;
+    if (item == 0) all_held = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);
     uint planes = touch_group(frame, shadows, bounds + OCC_FLAT_BOUNDS * (size_t)blocks, groups,
-                              group, item, touch, &held);
+                              group, item, touch, &all_held);
     barrier(CLK_LOCAL_MEM_FENCE);
-    uint block = group * OCC_FLAT_BLOCKS + item;
-    if (planes == OCC_FLAT_OUTSIDE || held || block >= blocks) return;
-    occ_relative_box box;
-    load_node(&box, bounds, blocks, block, &frame->eye);
-    planes = occ_flat_cut(&box, &frame->eye, planes);
-    if (planes == OCC_FLAT_OUTSIDE) return;
-    uint listed = list_block(&box, shadows, touch, (frame->shadows + 31u) / 32u,
-                             block * OCC_FLAT_ROWS, lists + (size_t)block * OCC_FLAT_LIST);
-    if (listed == OCC_FLAT_OUTSIDE) return;
-    states[block] = listed | planes << 8;
-    open[atomic_inc(&counts[frame->counts * OCC_COUNTS + OCC_COUNT_OPEN])] = block;
+    uint block = group * OCC_FLAT_BLOCKS + b;
+    int there = planes != OCC_FLAT_OUTSIDE && !all_held && block < blocks;
+    if (there) {
+        occ_relative_box box;
+        load_node(&box, bounds, blocks, block, &frame->eye);
+        planes = occ_flat_cut(&box, &frame->eye, planes);
+        there = planes != OCC_FLAT_OUTSIDE;
+        if (there) {
+            ask_block(&box, shadows, touch, used, item / OCC_FLAT_BLOCKS, block * OCC_FLAT_ROWS,
+                      near[b], &held[b]);
+        }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (there && item < OCC_FLAT_BLOCKS && !held[b]) {
+        uint listed = list_bits(near[b], used, lists + (size_t)block * OCC_FLAT_LIST);
+        states[block] = listed | planes << 8;
+        open[atomic_inc(&counts[frame->counts * OCC_COUNTS + OCC_COUNT_OPEN])] = block;
+    }
 }
 
 // --- objects -------------------------------------------------------------------------------------
@@ -193,47 +214,102 @@ inline void load_row(occ_relative_box *box, __global const float *boxes, uint st
     box->e = occ_box_slack(box, eye->slack_floor);
 }
 
-// An open block to a work-group, an object to an item.
-__kernel __attribute__((reqd_work_group_size(OCC_FLAT_ROWS, 1, 1))) void
+// What is found out about an object, by four items.
+#define SEEN_OUTSIDE  1u
+#define SEEN_HELD     2u
+#define SEEN_TOUCHED  4u
+#define SEEN_CENTERED 8u
+#define SEEN_SHOWS    16u
+
+// The first part of occ_flat_object(): an item asks every fourth candidate.
+inline uint ask_object(const occ_relative_box *box, __global const occ_eye *eye, uint planes,
+                       __global const occ_shadow *shadows, __global const uint *list, uint count,
+                       uint row, uint quarter)
+{
+    uint seen = 0;
+    int centered = 0;
+    if (!(box->t[0] == box->t[0])) return SEEN_OUTSIDE;
+    if (quarter == 0 && occ_box_outside(box, eye->plane[0], planes)) return SEEN_OUTSIDE;
+    for (uint i = quarter; i < count && !(seen & SEEN_HELD); i += QUARTERS) {
+        __global const occ_shadow *shadow = &shadows[list[i]];
+        if (shadow->owner == row) continue;
+        uint met = occ_flat_meet(box, shadow, &centered);
+        if (met == OCC_MEET_HELD) seen |= SEEN_HELD;
+        if (met == OCC_MEET_TOUCHES) seen |= SEEN_TOUCHED;
+    }
+    return centered ? seen | SEEN_CENTERED : seen;
+}
+
+// The verdict as far as that part goes.
+inline uint judge_object(const occ_relative_box *box, __global const occ_eye *eye, uint planes,
+                         uint seen, uint fused)
+{
+    if (seen & SEEN_OUTSIDE) return OCC_OUTSIDE;
+    if (seen & SEEN_HELD) return OCC_HIDDEN;
+    if (!(seen & SEEN_TOUCHED) || !fused) return OCC_VISIBLE;
+    if (!(seen & SEEN_CENTERED) &&
+        occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, planes)) {
+        return OCC_VISIBLE;
+    }
+    return OCC_UNRESOLVED;
+}
+
+// An open block to a work-group, four items to an object.
+__kernel __attribute__((reqd_work_group_size(FLAT_ITEMS, 1, 1))) void
 occ_flat_objects(__global const occ_flat_frame *frame, __global const float *boxes, uint stride,
                  uint rows, __global uint *counts, __global const uint *open,
                  __global const uint *states, __global const uint *lists,
                  __global const uint *slot_of, uint arranged, __global uint *unresolved,
                  __global uint *mask)
 {
-    __local uint word[2], seen, left, place;
-    uint item = (uint)get_local_id(0);
+    __local uint word[2], visible, left, place, seen[OCC_FLAT_ROWS];
+    uint item = (uint)get_local_id(0), o = item % OCC_FLAT_ROWS, quarter = item / OCC_FLAT_ROWS;
     __global uint *count = counts + frame->counts * OCC_COUNTS;
+    __global const occ_shadow *shadows = FRAME_SHADOWS(frame);
     uint blocks = count[OCC_COUNT_OPEN];
-    for (uint o = (uint)get_group_id(0); o < blocks; o += (uint)get_num_groups(0)) {
-        uint block = open[o], state = states[block], row = block * OCC_FLAT_ROWS + item;
+    for (uint k = (uint)get_group_id(0); k < blocks; k += (uint)get_num_groups(0)) {
+        uint block = open[k], state = states[block], row = block * OCC_FLAT_ROWS + o;
+        uint planes = state >> 8, listed = state & 0xffu, at = 0;
+        __global const uint *list = lists + (size_t)block * OCC_FLAT_LIST;
+        occ_relative_box box;
+        if (item < OCC_FLAT_ROWS) seen[item] = row < rows ? 0u : SEEN_OUTSIDE;
         if (item < 2u) word[item] = 0u;
-        if (item == 2u) seen = left = 0u;
+        if (item == 0) visible = left = 0u;
         barrier(CLK_LOCAL_MEM_FENCE);
-        uint known = OCC_OUTSIDE, at = 0;
         if (row < rows) {
-            occ_relative_box box;
             load_row(&box, boxes, stride, row, &frame->eye);
-            known = occ_flat_object(&box, &frame->eye, state >> 8, FRAME_SHADOWS(frame),
-                                    lists + (size_t)block * OCC_FLAT_LIST, state & 0xffu, row,
-                                    frame->fused);
+            uint known = ask_object(&box, &frame->eye, planes, shadows, list, listed, row, quarter);
+            if (known) atomic_or(&seen[o], known);
         }
-        if (known == OCC_VISIBLE) {
-            atomic_inc(&seen);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        uint verdict = OCC_OUTSIDE;
+        if (row < rows) verdict = judge_object(&box, &frame->eye, planes, seen[o], frame->fused);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (verdict == OCC_UNRESOLVED &&
+            occ_box_shows_corners(&box, &frame->eye, planes, shadows, list, listed, row,
+                                  2u * quarter, 2u * quarter + 2u)) {
+            atomic_or(&seen[o], SEEN_SHOWS);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (verdict == OCC_UNRESOLVED && (seen[o] & SEEN_SHOWS)) verdict = OCC_VISIBLE;
+        if (quarter) verdict = OCC_OUTSIDE; // the first speaks for all
+        if (verdict == OCC_VISIBLE) {
             uint slot = arranged ? slot_of[row] : row;
+            atomic_inc(&visible);
             if (arranged) {
                 atomic_or(&mask[slot / 32u], 1u << (slot % 32u));
             } else {
-                atomic_or(&word[item / 32u], 1u << (item % 32u));
+                atomic_or(&word[o / 32u], 1u << (o % 32u));
             }
         }
-        if (known == OCC_UNRESOLVED) at = atomic_inc(&left);
+        if (verdict == OCC_UNRESOLVED) at = atomic_inc(&left);
         barrier(CLK_LOCAL_MEM_FENCE);
         if (item == 0 && left) place = atomic_add(&count[OCC_COUNT_UNRESOLVED], left);
-        if (item == 1u && seen) atomic_add(&count[OCC_COUNT_VISIBLE], seen);
+        if (item == 1u && visible) atomic_add(&count[OCC_COUNT_VISIBLE], visible);
         if (item < 2u && !arranged && word[item]) mask[2u * block + item] = word[item];
         barrier(CLK_LOCAL_MEM_FENCE);
-        if (known == OCC_UNRESOLVED) unresolved[place + at] = row;
+        if (verdict == OCC_UNRESOLVED) unresolved[place + at] = row;
+        barrier(CLK_LOCAL_MEM_FENCE);
     }
 }
 

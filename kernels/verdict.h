@@ -9,9 +9,16 @@
 #define OCC_FRUSTUM_PLANES 6
 #define OCC_NOBODY         0xffffffffu
 
+// A device loads a plane at once if it knows how it lies.
+#ifdef __OPENCL_C_VERSION__
+#define OCC_ALIGNED __attribute__((aligned(16)))
+#else
+#define OCC_ALIGNED
+#endif
+
 // The shadow volume of an occluder, relative to the eye: a point is hidden if it is inside all
 // planes. A plane is four floats, n and d, inside where n.x + d > 0.
-typedef struct occ_shadow {
+typedef struct OCC_ALIGNED occ_shadow {
     float plane[OCC_SHADOW_PLANES][4]; // silhouette planes, then the visible faces
     occ_u32 planes;                    // how many of them: 5, 8 or 9
     occ_u32 owner;                     // row of the object that it must not hide, or OCC_NOBODY

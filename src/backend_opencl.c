@@ -194,7 +194,8 @@ occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tes
     *backend = NULL;
     if (!made) return OCC_ERROR_OUT_OF_MEMORY;
     *made = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
-    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults, files);
+    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults);
+    if (!result) result = occ_cl_device_build(&made->device, hooks, files);
     if (!result) {
         result = occ_cl_kernel(&made->device, hooks, "occ_test", OCC_RANGE_OBJECTS, &made->kernel);
     }

@@ -115,7 +115,7 @@ static bool is_part(const char *name, const char *const *kernels)
     return false;
 }
 
-static occ_result build(occ_cl_device *device, occ_hooks *hooks, const char *const *kernels)
+occ_result occ_cl_device_build(occ_cl_device *device, occ_hooks *hooks, const char *const *kernels)
 {
     const char *texts[MOST_SOURCES];
     size_t sizes[MOST_SOURCES];
@@ -177,8 +177,7 @@ static occ_result inspect(occ_cl_device *device, const occ_hooks *hooks)
     return OCC_SUCCESS;
 }
 
-occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc,
-                              const char *const *kernels)
+occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc)
 {
     *device = (occ_cl_device){.id = desc->device};
     occ_result result = OCC_SUCCESS;
@@ -191,7 +190,6 @@ occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ
         if (!device->id) result = choose_device(device, hooks);
         if (!result) result = use_context(device, hooks, desc->context);
     }
-    if (!result) result = build(device, hooks, kernels);
     if (!result) result = inspect(device, hooks);
     if (result) occ_cl_device_close(device);
     return result;

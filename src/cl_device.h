@@ -17,10 +17,11 @@ typedef struct occ_cl_device {
     cl_device_type type;
 } occ_cl_device;
 
-// Finds the device, or takes the caller's, and builds the files of kernels that are named: a list
-// that ends with NULL. On failure nothing is left open.
-occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc,
-                              const char *const *kernels);
+// Finds the device, or takes the caller's. On failure nothing is left open.
+occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ_cl_desc *desc);
+
+// Builds the files of kernels that are named, a list that ends with NULL, with all headers.
+occ_result occ_cl_device_build(occ_cl_device *device, occ_hooks *hooks, const char *const *kernels);
 
 // Makes a kernel; fails if the device cannot run it in groups of so many. `*kernel` is the caller's
 // to release even then, or NULL.

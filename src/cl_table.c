@@ -10,34 +10,49 @@ static const char *const kernel_names[OCC_KERNELS] = {
     "occ_flat_unpack", "occ_flat_bounds", "occ_flat_blocks", "occ_flat_objects", "occ_flat_fuse",
     "occ_list_tiles",  "occ_list_places", "occ_list_write",  "occ_draw_counts",  "occ_draw_compact",
 };
-static const size_t kernel_items[OCC_KERNELS] = {64, 64, 64, 64, 1, 256, 256, 256, 64, 64};
+static const size_t kernel_items[OCC_KERNELS] = {64, 64, 256, 256, 1, 256, 256, 256, 64, 64};
 
-// Work-groups to a multiprocessor that hide each other's waiting, and to a core that shares out the
-// work evenly; and how many objects are cut by one group.
-static void tune(occ_cl_engine *engine)
+// The tuner: work-groups to a multiprocessor that hide each other's waiting, or to a core that
+// share out the work evenly; and by how many items an object is cut up.
+static void tune(occ_cl_engine *engine, occ_cl_shape shape)
 {
-    bool gpu = engine->device.type & CL_DEVICE_TYPE_GPU;
+    bool wide = shape == OCC_CL_SHAPE_WIDE;
+    if (shape == OCC_CL_SHAPE_AUTO) wide = !(engine->device.type & CL_DEVICE_TYPE_CPU);
     size_t units = engine->device.units ? engine->device.units : 1;
-    engine->busy = units * (gpu ? 32 : 8);
-    engine->fusion_items = gpu ? 32 : 1;
+    engine->busy = units * (wide ? 32 : 8);
+    engine->fusion_items = wide ? 32 : 1;
 }
 
-static occ_result open_engine(occ_cl_table *table, occ_cl_engine *engine, cl_command_queue queue)
+static occ_result open_kernels(const occ_cl_table *table, occ_cl_engine *engine)
 {
-    static const char *const files[] = {"flat.cl", "list.cl", NULL};
+    occ_result result = OCC_SUCCESS;
+    for (int k = 0; k < OCC_KERNELS && !result; k++) {
+        bool group = k == OCC_KERNEL_FUSE && engine->fusion_items > 1;
+        result = occ_cl_kernel(&engine->device, &table->hooks,
+                               group ? "occ_flat_fuse_group" : kernel_names[k],
+                               group ? engine->fusion_items : kernel_items[k], &engine->kernel[k]);
+    }
+    return result;
+}
+
+static occ_result open_engine(occ_cl_table *table, occ_cl_engine *engine, cl_command_queue queue,
+                              occ_cl_shape shape)
+{
+    static const char *const narrow[] = {"flat.cl", "list.cl", NULL};
+    static const char *const wide[] = {"flat.cl", "fuse.cl", "list.cl", NULL};
     occ_cl_desc desc = {.queue = queue};
     occ_cl_device *device = &engine->device;
-    occ_result result = occ_cl_device_open(device, &table->hooks, &desc, files);
+    occ_result result = occ_cl_device_open(device, &table->hooks, &desc);
     if (result) return result;
-    tune(engine);
+    tune(engine, shape);
+    result = occ_cl_device_build(device, &table->hooks, engine->fusion_items > 1 ? wide : narrow);
+    if (result) return result;
     cl_command_queue_properties properties = 0;
     cl_int error = clGetCommandQueueInfo(device->queue, CL_QUEUE_PROPERTIES, sizeof properties,
                                          &properties, NULL);
     if (error) return occ_cl_fail(&table->hooks, error, "clGetCommandQueueInfo");
     engine->takes_times = properties & CL_QUEUE_PROFILING_ENABLE;
-    for (int k = 0; k < OCC_KERNELS && !result; k++)
-        result = occ_cl_kernel(device, &table->hooks, kernel_names[k], kernel_items[k],
-                               &engine->kernel[k]);
+    result = open_kernels(table, engine);
     if (result) return result;
     engine->copies = clCreateCommandQueue(device->context, device->id, 0, &error);
     if (error) {
@@ -78,7 +93,8 @@ static occ_result open_engines(occ_cl_table *table, const occ_cl_table_desc *des
         table->engines[i] = (occ_cl_engine){.turn = 0};
     occ_result result = OCC_SUCCESS;
     for (uint32_t i = 0; i < count && !result; i++)
-        result = open_engine(table, &table->engines[i], desc->queues ? desc->queues[i] : NULL);
+        result = open_engine(table, &table->engines[i], desc->queues ? desc->queues[i] : NULL,
+                             desc->shape);
     if (result) return result;
     for (uint32_t i = 1; i < count; i++) {
         if (table->engines[i].device.context != table->engines[0].device.context) {
@@ -93,6 +109,10 @@ static occ_result check(const occ_hooks *hooks, const occ_cl_table_desc *desc)
 {
     if (!desc->capacity || desc->capacity > MOST_SLOTS) {
         return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "a table of %u slots", desc->capacity);
+    }
+    if ((unsigned)desc->shape > OCC_CL_SHAPE_WIDE) {
+        return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no shape %d",
+                        (int)desc->shape);
     }
     if (!desc->queues) return OCC_SUCCESS;
     if (!desc->queue_count || desc->queue_count > OCC_MOST_QUEUES) {

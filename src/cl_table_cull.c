@@ -9,6 +9,8 @@
 #include <string.h>
 #include <time.h>
 
+#define FLAT_ITEMS 256 // as in kernels/flat.cl
+
 static double now_ms(void)
 {
     struct timespec time;
@@ -123,8 +125,8 @@ static occ_result test_blocks(const occ_cl_table *table, occ_table_part *part)
         OCC_ARGUMENT(buffer[OCC_PART_MASK]),
         OCC_ARGUMENT(part->words),
     };
-    return occ_table_launch(table, part, OCC_KERNEL_BLOCKS, arguments, 11, part->groups,
-                            OCC_FLAT_BLOCKS, 0, NULL, NULL);
+    return occ_table_launch(table, part, OCC_KERNEL_BLOCKS, arguments, 11, part->groups, FLAT_ITEMS,
+                            0, NULL, NULL);
 }
 
 static size_t at_most(size_t count, size_t most)
@@ -152,8 +154,7 @@ static occ_result test_objects(const occ_cl_table *table, occ_table_part *part)
         OCC_ARGUMENT(buffer[OCC_PART_MASK]),
     };
     return occ_table_launch(table, part, OCC_KERNEL_OBJECTS, arguments, 12,
-                            at_most(part->blocks, part->engine->busy), OCC_FLAT_ROWS, 0, NULL,
-                            NULL);
+                            at_most(part->blocks, part->engine->busy), FLAT_ITEMS, 0, NULL, NULL);
 }
 
 static occ_result fuse_objects(const occ_cl_table *table, occ_table_part *part)
@@ -174,7 +175,7 @@ static occ_result fuse_objects(const occ_cl_table *table, occ_table_part *part)
         OCC_ARGUMENT(buffer[OCC_PART_MASK]),
     };
     const occ_cl_engine *engine = part->engine;
-    size_t groups = at_most(part->rows / engine->fusion_items + 1, engine->busy);
+    size_t groups = at_most(part->rows, engine->busy);
     return occ_table_launch(table, part, OCC_KERNEL_FUSE, arguments, 10, groups,
                             engine->fusion_items, 0, NULL, NULL);
 }

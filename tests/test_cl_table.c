@@ -48,10 +48,21 @@ static void free_crowd(table_scene *crowd)
     obs_free(&crowd->file);
 }
 
-static occ_cl_table *make_table(uint32_t capacity, const cl_command_queue *queues, uint32_t count)
+// PoCL 3.1 takes minutes to compile kernels with as many barriers as the wide ones have.
+static occ_cl_shape shape_of(int i)
+{
+    cl_platform_id platform;
+    char name[64] = "";
+    ck_assert_int_eq(clGetPlatformIDs(1, &platform, NULL), CL_SUCCESS);
+    (void)clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name - 1, name, NULL);
+    if (strcmp(name, "Portable Computing Language") == 0) return OCC_CL_SHAPE_AUTO;
+    return i % 2 ? OCC_CL_SHAPE_WIDE : OCC_CL_SHAPE_NARROW;
+}
+
+static occ_cl_table *make_table(uint32_t capacity, occ_cl_shape shape)
 {
     occ_cl_table *table = NULL;
-    occ_cl_table_desc desc = {.capacity = capacity, .queues = queues, .queue_count = count};
+    occ_cl_table_desc desc = {.capacity = capacity, .shape = shape};
     occ_result result = occ_cl_table_create(&desc, &table);
     ck_assert_msg(result == OCC_SUCCESS, "%s", occ_result_name(result));
     return table;
@@ -109,11 +120,11 @@ static void compare_path(occ_cl_table *table, const kit_flat *rows, const table_
 START_TEST(mask_is_plain_cs_on_every_named_scene)
 {
     static const uint32_t counts[] = {300, 700, 500, 300, 200};
-    table_scene crowd = make_crowd(scenes_kinds[_i].name, counts[_i]);
+    table_scene crowd = make_crowd(scenes_kinds[_i / 2].name, counts[_i / 2]);
     uint32_t count = crowd.file.object_count;
     kit_flat rows = {.boxes = crowd.file.objects, .count = count};
     kit_flat_counts sum = {0};
-    occ_cl_table *table = make_table(count, NULL, 0);
+    occ_cl_table *table = make_table(count, shape_of(_i));
     ck_assert_int_eq(occ_cl_table_write(table, 0, count, rows.boxes), OCC_SUCCESS);
     compare_path(table, &rows, &crowd, &sum);
     ck_assert_uint_gt(sum.visible, 0);
@@ -125,12 +136,12 @@ END_TEST
 
 START_TEST(arranged_table_keeps_its_slots)
 {
-    table_scene crowd = make_crowd(_i ? "forest" : "city", 700);
+    table_scene crowd = make_crowd(_i / 2 ? "forest" : "city", 700);
     uint32_t count = crowd.file.object_count;
     uint32_t *order = kit_flat_order(crowd.file.objects, count);
     kit_flat rows = {.boxes = crowd.file.objects, .count = count, .slot_of = order};
     kit_flat_counts sum = {0};
-    occ_cl_table *table = make_table(count, NULL, 0);
+    occ_cl_table *table = make_table(count, shape_of(_i));
     ck_assert_int_eq(occ_cl_table_arrange(table, rows.boxes), OCC_SUCCESS);
     compare_path(table, &rows, &crowd, &sum);
     ck_assert_uint_gt(sum.unresolved, 0);
@@ -147,7 +158,7 @@ START_TEST(every_size_of_the_last_block_is_tested_whole)
     double eye[3];
     occ_camera_desc camera = kit_obs_camera(&crowd.file.frames[0], eye);
     kit_flat rows = {.boxes = crowd.file.objects, .count = counts[_i]};
-    occ_cl_table *table = make_table(rows.count, NULL, 0);
+    occ_cl_table *table = make_table(rows.count, shape_of(_i));
     ck_assert_int_eq(occ_cl_table_write(table, 0, rows.count, rows.boxes), OCC_SUCCESS);
     (void)compare(table, &rows, &crowd, &camera, NULL);
     occ_cl_table_destroy(table);
@@ -161,8 +172,8 @@ int main(void)
     if (skipped) return skipped;
     Suite *suite = suite_create("cl_table");
     TCase *masks = tcase_create("masks");
-    tcase_add_loop_test(masks, mask_is_plain_cs_on_every_named_scene, 0, 5);
-    tcase_add_loop_test(masks, arranged_table_keeps_its_slots, 0, 2);
+    tcase_add_loop_test(masks, mask_is_plain_cs_on_every_named_scene, 0, 10);
+    tcase_add_loop_test(masks, arranged_table_keeps_its_slots, 0, 4);
     tcase_add_loop_test(masks, every_size_of_the_last_block_is_tested_whole, 0, 11);
     suite_add_tcase(suite, masks);
     return test_run_suite(suite);
