@@ -243,7 +243,11 @@ occ_result occ_cl_table_cull(occ_cl_table *table, const occ_cl_frame *desc, cl_e
         result = cull_part(table, &table->parts[p], desc);
     table->frames++;
     if (!result) result = mark_ends(table, event);
-    if (result) return give_up(table, result);
+    if (result) {
+        if (event && *event) (void)clReleaseEvent(*event);
+        if (event) *event = NULL;
+        return give_up(table, result);
+    }
     table->stats.occluders_used = table->frame.shadows.count;
     table->stats.walk_ms = walked - start;
     table->stats.enqueue_ms = now_ms() - walked;
