@@ -66,23 +66,27 @@ typedef struct fuse_crossing {
     uint in, entries, first, last;
 } fuse_crossing;
 
+// (Loops of a fixed length, so that the loads of all rounds are under way at once.)
 inline void find_crossing(__local const fuse_group *group, uint count, fuse_crossing *cross)
 {
-    cross->level = 0.0f;
-    cross->in = cross->entries = cross->first = cross->last = 0;
-    for (uint i = 0; i < count; i++) {
-        float least = 2.0f * group->least[i];
-        if (least > cross->level) cross->level = least;
+    float level = 0.0f;
+    uint inside = 0;
+#pragma unroll
+    for (uint i = 0; i < OCC_PIECE_VERTICES; i++) {
+        float least = i < count ? 2.0f * group->least[i] : 0.0f;
+        if (least > level) level = least;
     }
-    int was_in = group->at[count - 1u] > cross->level;
-    for (uint i = 0; i < count; i++) {
-        int is_in = group->at[i] > cross->level;
-        if (!was_in && is_in) cross->first = i;
-        if (was_in && !is_in) cross->last = i;
-        cross->entries += !was_in && is_in;
-        cross->in += is_in;
-        was_in = is_in;
-    }
+#pragma unroll
+    for (uint i = 0; i < OCC_PIECE_VERTICES; i++)
+        if (i < count && group->at[i] > level) inside |= 1u << i;
+    // Bit i: vertex i is inside and the one before it is not, and the other way round.
+    uint before = (inside << 1 | inside >> (count - 1u)) & ((1u << count) - 1u);
+    uint enters = inside & ~before, leaves = before & ~inside;
+    cross->level = level;
+    cross->in = popcount(inside);
+    cross->entries = popcount(enters);
+    cross->first = enters ? 31u - clz(enters & (0u - enters)) : 0u;
+    cross->last = leaves ? 31u - clz(leaves & (0u - leaves)) : 0u;
 }
 
 // Vertex `item` of the part that begins with cut `a`, goes on with `run` vertices from `first`, and

@@ -35,6 +35,24 @@ static occ_result open_kernels(const occ_cl_table *table, occ_cl_engine *engine)
     return result;
 }
 
+// The queue for boxes on their way. A CPU copies with the cores that run the kernels: there one
+// queue does both.
+static occ_result open_copies(const occ_cl_table *table, occ_cl_engine *engine)
+{
+    const occ_cl_device *device = &engine->device;
+    cl_int error = CL_SUCCESS;
+    if (device->type & CL_DEVICE_TYPE_CPU) {
+        error = clRetainCommandQueue(device->queue);
+        if (error) return occ_cl_fail(&table->hooks, error, "clRetainCommandQueue");
+        engine->copies = device->queue;
+        return OCC_SUCCESS;
+    }
+    engine->copies = clCreateCommandQueue(device->context, device->id, 0, &error);
+    if (!error) return OCC_SUCCESS;
+    engine->copies = NULL;
+    return occ_cl_fail(&table->hooks, error, "clCreateCommandQueue");
+}
+
 static occ_result open_engine(occ_cl_table *table, occ_cl_engine *engine, cl_command_queue queue,
                               occ_cl_shape shape)
 {
@@ -54,11 +72,8 @@ static occ_result open_engine(occ_cl_table *table, occ_cl_engine *engine, cl_com
     engine->takes_times = properties & CL_QUEUE_PROFILING_ENABLE;
     result = open_kernels(table, engine);
     if (result) return result;
-    engine->copies = clCreateCommandQueue(device->context, device->id, 0, &error);
-    if (error) {
-        engine->copies = NULL;
-        return occ_cl_fail(&table->hooks, error, "clCreateCommandQueue");
-    }
+    result = open_copies(table, engine);
+    if (result) return result;
     for (int i = 0; i < 2; i++) {
         size_t bytes = OCC_STAGED_BOXES * sizeof(occ_box);
         engine->raw[i] = clCreateBuffer(device->context, CL_MEM_READ_ONLY, bytes, NULL, &error);

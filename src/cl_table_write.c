@@ -128,6 +128,7 @@ occ_result occ_cl_table_stage(occ_cl_table *table, uint32_t count, occ_box **box
         result = occ_table_wait(table, &stage->sent[e]);
     if (!result) result = occ_table_pin(table, &stage->pinned, count * sizeof **boxes);
     if (result) return give_up(table, result);
+    if (!stage->pinned.data) return give_up(table, OCC_ERROR_DEVICE);
     stage->boxes = count;
     *boxes = stage->pinned.data;
     return OCC_SUCCESS;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: unit opencl
-// oclgrind: yes
 // timeout: 120
 // Tables on a device: their masks are plain C's, bit for bit, however the rows are cut up; and what
 // they leave on the device says the same.

@@ -114,14 +114,14 @@ typedef struct occ_cl_frame {
     /// Default NULL. `method` PAIRWISE is not supported; of `max_occluders` 1024 at most are used;
     /// `grain` means nothing here.
     const occ_cull_desc *knobs;
-    uint32_t outputs; ///< occ_cl_output, added up. Default 0: the mask on the device alone.
     /// DrawElementsIndirectCommand records (5 words each: count, instance count, first index, base
     /// vertex, base instance), one per slot. Needed for DRAWS and COMPACT; with DRAWS the second
     /// word of each is written.
     cl_mem draws;
-    cl_mem compact; ///< Room for as many records. COMPACT needs a table of one part.
-    cl_uint waits;  ///< Events that the frame waits for on the device.
-    const cl_event *wait_list;
+    cl_mem compact;            ///< Room for as many records. COMPACT needs a table of one part.
+    const cl_event *wait_list; ///< Events that the frame waits for on the device.
+    cl_uint waits;             ///< How many.
+    uint32_t outputs; ///< occ_cl_output, added up. Default 0: the mask on the device alone.
 } occ_cl_frame;
 
 /// Starts a frame: chooses occluders on the calling thread, then enqueues all of the device's work.
