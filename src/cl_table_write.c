@@ -171,9 +171,10 @@ static occ_result write_checked(occ_cl_table *table, uint32_t first, uint32_t co
     occ_result result = OCC_SUCCESS;
     for (uint32_t i = 0; i < count && !result; i += OCC_STAGED_BOXES) {
         uint32_t piece = count - i < OCC_STAGED_BOXES ? count - i : OCC_STAGED_BOXES;
-        occ_box *staged;
+        occ_box *staged = NULL;
         result = occ_cl_table_stage(table, piece, &staged);
         if (result) return result;
+        if (!staged) return OCC_ERROR_DEVICE;
         memcpy(staged, boxes + i, piece * sizeof *staged);
         result = occ_cl_table_send(table, first + i, piece);
     }

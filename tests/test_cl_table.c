@@ -86,6 +86,37 @@ START_TEST(every_size_of_the_last_block_is_tested_whole)
 }
 END_TEST
 
+// Every word of a hundred thousand objects, on the view's kernel and on the table's.
+START_TEST(frustum_masks_of_a_large_scene_are_plain_cs)
+{
+    kit_crowd crowd = kit_make_crowd("city", 100000);
+    uint32_t count = crowd.file.object_count;
+    kit_flat rows = {.boxes = crowd.file.objects, .count = count};
+    occ_cull_desc knobs = {.method = OCC_METHOD_FRUSTUM};
+    occ_scene *scene = kit_obs_scene(&crowd.file, NULL, NULL, NULL);
+    occ_view_desc desc = {.backend = OCC_BACKEND_PLAIN};
+    occ_view *plain, *device;
+    ck_assert_int_eq(occ_view_create(&desc, &plain), OCC_SUCCESS);
+    ck_assert_int_eq(occ_cl_view_create(NULL, NULL, &device), OCC_SUCCESS);
+    occ_cl_table *table = kit_make_table(count, kit_shape(0));
+    ck_assert_int_eq(occ_cl_table_write(table, 0, count, rows.boxes), OCC_SUCCESS);
+    for (uint32_t f = 0; f < crowd.file.frame_count; f += 12) {
+        double eye[3];
+        occ_camera_desc camera = kit_obs_camera(&crowd.file.frames[f], eye);
+        kit_flat_counts counts = kit_table_compare(table, &rows, &crowd, &camera, &knobs);
+        ck_assert_uint_gt(counts.visible, 1000);
+        kit_cull(plain, scene, &camera, &knobs);
+        kit_cull(device, scene, &camera, &knobs);
+        KIT_CHECK(kit_same_masks(plain, device), "the view's mask of frame %u is another", f);
+    }
+    occ_cl_table_destroy(table);
+    occ_view_destroy(plain);
+    occ_view_destroy(device);
+    occ_scene_destroy(scene);
+    kit_free_crowd(&crowd);
+}
+END_TEST
+
 int main(void)
 {
     int skipped = test_skip_without_device();
@@ -95,6 +126,7 @@ int main(void)
     tcase_add_loop_test(masks, mask_is_plain_cs_on_every_named_scene, 0, 10);
     tcase_add_loop_test(masks, arranged_table_keeps_its_slots, 0, 4);
     tcase_add_loop_test(masks, every_size_of_the_last_block_is_tested_whole, 0, 11);
+    tcase_add_test(masks, frustum_masks_of_a_large_scene_are_plain_cs);
     suite_add_tcase(suite, masks);
     return test_run_suite(suite);
 }
