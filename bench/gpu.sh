@@ -40,6 +40,7 @@ row forest_100000 forest 100000 2 --every 3 --arrange
 row city_1000000 city 1000000 2 --every 3
 row city_1000000_arranged city 1000000 2 --every 3 --arrange
 row city_1000000_single city 1000000 2 --every 3 --method single
+row soup_100000 soup 100000 2 --every 3 --arrange
 row city_1000000_moved city 1000000 2 --every 3 --move
 if [ "${SIZES:-}" != small ]; then
     row city_10000000 city 10000000 2 --every 3

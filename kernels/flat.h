@@ -13,9 +13,9 @@
 
 #include "fusion.h"
 
-#define OCC_FLAT_ROWS    64u // objects to a block
-#define OCC_FLAT_BLOCKS  64u // blocks to a group
-#define OCC_FLAT_LIST    64u // candidates that a block keeps: what fusion takes
+#define OCC_FLAT_ROWS    64u  // objects to a block
+#define OCC_FLAT_BLOCKS  64u  // blocks to a group
+#define OCC_FLAT_LIST    128u // candidates that a block keeps; fusion takes 64 that touch the object
 #define OCC_FLAT_SHADOWS 1024u
 #define OCC_FLAT_WORDS   (OCC_FLAT_SHADOWS / 32u)
 #define OCC_FLAT_BOUNDS  6u // columns: least x, y, z, then most

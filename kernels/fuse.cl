@@ -176,6 +176,16 @@ inline uint cut_piece(__local fuse_group *group, __local fuse_piece *piece, cons
 
 // --- candidates ----------------------------------------------------------------------------------
 
+// Fusion takes the first that touch the object, and no more than it has room for.
+inline void drop_surplus(__local fuse_group *group, uint count)
+{
+    uint taken = 0;
+    for (uint i = 0; i < count; i++) {
+        if (taken == OCC_FUSION_CANDIDATES) group->planes[i] = 0;
+        taken += group->planes[i] != 0;
+    }
+}
+
 // As occ_fusion_consider(), for all of a block's list. Candidates that do not touch the object have
 // no planes.
 inline void consider_all(__local fuse_group *group, const occ_relative_box *box,
@@ -196,9 +206,15 @@ inline void consider_all(__local fuse_group *group, const occ_relative_box *box,
             if (!OCC_IS_INSIDE(s, r, box->e)) cutting |= 1u << p;
         }
         if (!apart && !cutting) atomic_or(&group->held, 1u);
-        if (!apart && cutting >> occ_shadow_silhouettes(shadow)) atomic_or(&group->faces, 1u);
         group->planes[i] = apart ? 0u : cutting;
     }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item == 0 && count > OCC_FUSION_CANDIDATES) drop_surplus(group, count);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint i = item; i < count; i += FUSE_ITEMS)
+        if (group->planes[i] >> occ_shadow_silhouettes(&shadows[list[i]])) {
+            atomic_or(&group->faces, 1u);
+        }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
