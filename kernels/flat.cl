@@ -51,12 +51,13 @@ inline void row_bounds(__global const float *boxes, uint stride, uint row, int t
     }
 }
 
-// The least or the most of what the items have, in column `column`; every item calls it.
-inline void reduce_columns(__local float (*part)[OCC_FLAT_ROWS], uint item)
+// The least or the most of what the 64 items of a block have, in each column; every item calls it.
+inline void reduce_columns(__local float (*part)[FLAT_ITEMS], uint item)
 {
+    uint o = item % OCC_FLAT_ROWS;
     for (uint step = OCC_FLAT_ROWS / 2u; step; step /= 2u) {
         barrier(CLK_LOCAL_MEM_FENCE);
-        for (uint j = 0; j < 3u && item < step; j++) {
+        for (uint j = 0; j < 3u && o < step; j++) {
             part[j][item] = fmin(part[j][item], part[j][item + step]);
             part[3u + j][item] = fmax(part[3u + j][item], part[3u + j][item + step]);
         }
@@ -65,17 +66,18 @@ inline void reduce_columns(__local float (*part)[OCC_FLAT_ROWS], uint item)
 }
 
 // The bounds of a group's blocks and of the group, if any of its rows has changed. The items take
-// the rows of a block side by side.
-__kernel __attribute__((reqd_work_group_size(OCC_FLAT_ROWS, 1, 1))) void
+// four blocks at a time, row by row.
+__kernel __attribute__((reqd_work_group_size(FLAT_ITEMS, 1, 1))) void
 occ_flat_bounds(__global const float *boxes, uint stride, uint rows, uint blocks, uint groups,
                 __global float *bounds, __global uint *dirty)
 {
-    __local float part[OCC_FLAT_BOUNDS][OCC_FLAT_ROWS];
+    __local float part[OCC_FLAT_BOUNDS][FLAT_ITEMS];
     uint item = (uint)get_local_id(0), group = (uint)get_group_id(0);
+    uint column = item % OCC_FLAT_ROWS, quarter = item / OCC_FLAT_ROWS;
     uint changed = dirty[group], end = changed ? OCC_FLAT_BLOCKS : 0u;
-    float whole = item < 3u ? INFINITY : -INFINITY; // of column `item`
-    for (uint b = 0; b < end; b++) {
-        uint block = group * OCC_FLAT_BLOCKS + b, row = block * OCC_FLAT_ROWS + item;
+    float whole = column < 3u ? INFINITY : -INFINITY; // of this quarter's blocks
+    for (uint b = quarter; b < end; b += QUARTERS) {
+        uint block = group * OCC_FLAT_BLOCKS + b, row = block * OCC_FLAT_ROWS + column;
         float least[3], most[3];
         row_bounds(boxes, stride, row, row < rows, least, most);
         for (uint j = 0; j < 3u; j++) {
@@ -83,14 +85,18 @@ occ_flat_bounds(__global const float *boxes, uint stride, uint rows, uint blocks
             part[3u + j][item] = most[j];
         }
         reduce_columns(part, item);
-        if (item < OCC_FLAT_BOUNDS) {
-            float bound = part[item][0];
-            whole = item < 3u ? fmin(whole, bound) : fmax(whole, bound);
-            if (block < blocks) bounds[item * (size_t)blocks + block] = bound;
+        if (column < OCC_FLAT_BOUNDS) {
+            float bound = part[column][item - column];
+            whole = column < 3u ? fmin(whole, bound) : fmax(whole, bound);
+            if (block < blocks) bounds[column * (size_t)blocks + block] = bound;
         }
         barrier(CLK_LOCAL_MEM_FENCE);
     }
+    if (column < OCC_FLAT_BOUNDS) part[column][quarter] = whole;
+    barrier(CLK_LOCAL_MEM_FENCE);
     if (end && item < OCC_FLAT_BOUNDS) {
+        for (uint q = 1; q < QUARTERS; q++)
+            whole = item < 3u ? fmin(whole, part[item][q]) : fmax(whole, part[item][q]);
         bounds[OCC_FLAT_BOUNDS * (size_t)blocks + item * (size_t)groups + group] = whole;
     }
     barrier(CLK_GLOBAL_MEM_FENCE);

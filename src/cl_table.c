@@ -10,7 +10,7 @@ static const char *const kernel_names[OCC_KERNELS] = {
     "occ_flat_unpack", "occ_flat_bounds", "occ_flat_blocks", "occ_flat_objects", "occ_flat_fuse",
     "occ_list_tiles",  "occ_list_places", "occ_list_write",  "occ_draw_counts",  "occ_draw_compact",
 };
-static const size_t kernel_items[OCC_KERNELS] = {64, 64, 256, 256, 1, 256, 256, 256, 64, 64};
+static const size_t kernel_items[OCC_KERNELS] = {64, 256, 256, 256, 1, 256, 256, 256, 64, 64};
 
 // The tuner: work-groups to a multiprocessor that hide each other's waiting, or to a core that
 // share out the work evenly; and by how many items an object is cut up.

@@ -23,7 +23,7 @@ occ_result occ_table_refit(const occ_cl_table *table, occ_table_part *part)
         OCC_ARGUMENT(part->buffer[OCC_PART_DIRTY]),
     };
     occ_result result = occ_table_launch(table, part, OCC_KERNEL_BOUNDS, arguments, 7, part->groups,
-                                         OCC_FLAT_ROWS, 0, NULL, NULL);
+                                         256, 0, NULL, NULL);
     if (!result) part->dirty = false;
     return result;
 }
