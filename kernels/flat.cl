@@ -8,9 +8,8 @@
 // and, from bit 8 on, which planes of the frustum may cut it.
 #include "flat.h"
 
-#define QUARTERS             4u // items to a block of a group, and to an object of a block
-#define FLAT_ITEMS           (QUARTERS * 64u)
-#define FRAME_SHADOWS(frame) ((__global const occ_shadow *)((frame) + 1))
+#define QUARTERS   4u // items to a block of a group, and to an object of a block
+#define FLAT_ITEMS (QUARTERS * 64u)
 
 // --- boxes in ------------------------------------------------------------------------------------
 
@@ -164,9 +163,9 @@ inline uint touch_group(__global const occ_flat_frame *frame, __global const occ
 
 // A work-group takes a group: which occluders touch it, shadow by shadow, then four items a block.
 __kernel __attribute__((reqd_work_group_size(FLAT_ITEMS, 1, 1))) void
-occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *bounds, uint rows,
-                uint blocks, uint groups, __global uint *counts, __global uint *open,
-                __global uint *states, __global uint *lists, __global uint *mask, uint words)
+occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *bounds, uint blocks,
+                uint groups, __global uint *counts, __global uint *open, __global uint *states,
+                __global uint *lists, __global uint *mask, uint words)
 {
     __local uint touch[OCC_FLAT_WORDS], near[OCC_FLAT_BLOCKS][OCC_FLAT_WORDS + 1u];
     __local uint all_held, held[OCC_FLAT_BLOCKS];
@@ -207,18 +206,6 @@ occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *boun
 }
 
 // --- objects -------------------------------------------------------------------------------------
-
-inline void load_row(occ_relative_box *box, __global const float *boxes, uint stride, uint row,
-                     __global const occ_eye *eye)
-{
-    for (uint j = 0; j < 3u; j++) {
-        float coordinate = boxes[j * (size_t)stride + row];
-        box->t[j] = OCC_RELATIVE(coordinate, eye->high[j], eye->low[j]);
-    }
-    for (uint k = 0; k < 9u; k++)
-        box->a[k] = boxes[(3u + k) * (size_t)stride + row];
-    box->e = occ_box_slack(box, eye->slack_floor);
-}
 
 // What is found out about an object, by four items.
 #define SEEN_OUTSIDE  1u

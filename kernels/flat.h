@@ -158,4 +158,21 @@ OCC_FN occ_u32 occ_flat_object(const occ_relative_box *box, OCC_GLOBAL const occ
     return OCC_UNRESOLVED;
 }
 
+#ifdef __OPENCL_C_VERSION__
+#define FRAME_SHADOWS(frame) ((__global const occ_shadow *)((frame) + 1))
+
+inline void load_row(occ_relative_box *box, __global const float *boxes, uint stride, uint row,
+                     __global const occ_eye *eye)
+{
+    for (uint j = 0; j < 3u; j++) {
+        float coordinate = boxes[j * (size_t)stride + row];
+        box->t[j] = OCC_RELATIVE(coordinate, eye->high[j], eye->low[j]);
+    }
+    for (uint k = 0; k < 9u; k++)
+        box->a[k] = boxes[(3u + k) * (size_t)stride + row];
+    box->e = occ_box_slack(box, eye->slack_floor);
+}
+
+#endif
+
 #endif

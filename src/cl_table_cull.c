@@ -115,7 +115,6 @@ static occ_result test_blocks(const occ_cl_table *table, occ_table_part *part)
     const occ_cl_argument arguments[] = {
         OCC_ARGUMENT(buffer[OCC_PART_FRAME]),
         OCC_ARGUMENT(buffer[OCC_PART_BOUNDS]),
-        OCC_ARGUMENT(part->rows),
         OCC_ARGUMENT(part->blocks),
         OCC_ARGUMENT(part->groups),
         OCC_ARGUMENT(buffer[OCC_PART_COUNTS]),
@@ -125,7 +124,7 @@ static occ_result test_blocks(const occ_cl_table *table, occ_table_part *part)
         OCC_ARGUMENT(buffer[OCC_PART_MASK]),
         OCC_ARGUMENT(part->words),
     };
-    return occ_table_launch(table, part, OCC_KERNEL_BLOCKS, arguments, 11, part->groups, FLAT_ITEMS,
+    return occ_table_launch(table, part, OCC_KERNEL_BLOCKS, arguments, 10, part->groups, FLAT_ITEMS,
                             0, NULL, NULL);
 }
 
