@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEVICES = 2, COUNT = 9000 }; // more than two groups of blocks
+enum { DEVICES = 2, COUNT = 70000 }; // more than two groups of blocks, and than a tile of a list
 
 static cl_context context;
 static cl_device_id devices[DEVICES];
