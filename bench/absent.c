@@ -22,6 +22,18 @@ int bench_picture(int argc, char **argv)
 }
 #endif
 
+#ifndef OCC_BENCH_IMAGE
+int bench_image(int argc, char **argv)
+{
+    (void)argc;
+    fprintf(stderr,
+            "occlude-bench %s: built without OpenGL (EGL), Assimp or stb_image_write.h, which it "
+            "needs\n",
+            argv[0]);
+    return 1;
+}
+#endif
+
 #ifndef OCC_BENCH_HARD
 int bench_hard(int argc, char **argv)
 {

@@ -2,7 +2,8 @@
 /// @file
 /// The subcommands of occlude-bench. Each gets its own name as argv[0] and returns the exit status:
 /// 0, 1 when an input could not be used (after a message, with nothing written), 2 on bad usage,
-/// and 3 when `compare`, `hard` or `error` found a visible object reported hidden that must not be.
+/// and 3 when `compare`, `image`, `hard` or `error` found a visible object reported hidden that
+/// must not be.
 #ifndef OCC_BENCH_COMMANDS_H
 #define OCC_BENCH_COMMANDS_H
 
@@ -20,6 +21,9 @@ int bench_convert(int argc, char **argv);
 
 /// Draws what was decided in one frame.
 int bench_picture(int argc, char **argv);
+
+/// Draws a model with and without culling, and compares.
+int bench_image(int argc, char **argv);
 
 /// Finds out by sampling what can truly be seen.
 int bench_truth(int argc, char **argv);

@@ -43,7 +43,7 @@ static const char cull_usage[] =
     "  --out R.vis        write the verdicts of every frame\n"
     "  --csv F.csv        write a row for each frame\n"
     "  --preset P         fast, balanced (default) or thorough: what stands for knobs not given\n"
-    "  --min-area A       smallest solid angle at which an occluder is used (balanced: 2e-4)\n"
+    "  --min-area A       smallest solid angle at which an occluder is used (balanced: 3e-4)\n"
     "  --grain N          most objects in a node that is tested as it is (balanced: 64)\n"
     "  --max-occluders N  most occluders used in a frame (balanced: 1024)\n"
     "  --max-splits N     most subtractions for an object in fused (balanced: 48)\n"
@@ -54,9 +54,10 @@ static const char cull_usage[] =
     "\n"
     "A frame's time is that of culling, of copying the mask and of copying the list of visible\n"
     "objects: what an engine waits for. All frames are culled once before anything is timed. A\n"
-    "frame's time is the median of its repeats; median_ms, p99_ms, max_ms, walk_ms and test_ms "
-    "run\n"
-    "over the frames, and in_frustum and visible are means over them.\n"
+    "frame's time is the median of its repeats, one after the other; median_ms, p99_ms, max_ms,\n"
+    "walk_ms and test_ms run over the frames. moved_ms is the median of frames that follow "
+    "another\n"
+    "one. in_frustum and visible are means over the frames.\n"
     "\n"
     "Example: occlude-bench cull city.obs --method fused --backend openmp --csv city.csv\n";
 
@@ -99,12 +100,8 @@ static int parse_cull(int argc, char **argv, cull_arguments *arguments)
         {"--rays", OPTIONS_TEXT, &arguments->rays},
         {"--force", OPTIONS_FLAG, &arguments->force},
         {NULL, OPTIONS_FLAG, NULL}};
-    char *words[1];
-    int count = options_parse(argc, argv, entries, words, 1);
-    if (count == OPTIONS_HELP) return OPTIONS_HELP;
-    if (count == OPTIONS_BAD) return 2;
-    if (count != 1) return options_complain(argv[0], "expected a scene file");
-    arguments->scene = words[0];
+    int status = options_parse_scene(argc, argv, entries, &arguments->scene);
+    if (status) return status;
     settings->knobs.min_area = (float)arguments->min_area;
     settings->knobs.tolerance = (float)arguments->tolerance;
     if (settings->knobs.tolerance > OCC_MAX_TOLERANCE)
@@ -184,10 +181,11 @@ static bool print_summary(const cull_arguments *arguments, const obs_scene *scen
     }
     print_memory(scene, result);
     printf("scene=%s method=%s backend=%s threads=%u frames=%u objects=%u in_frustum=%.1f "
-           "visible=%.1f median_ms=%.4f p99_ms=%.4f max_ms=%.4f walk_ms=%.4f test_ms=%.4f\n",
+           "visible=%.1f median_ms=%.4f p99_ms=%.4f max_ms=%.4f walk_ms=%.4f test_ms=%.4f "
+           "moved_ms=%.4f\n",
            name, arguments->settings.method, arguments->settings.backend, result->threads,
            result->frame_count, scene->object_count, sum.in_frustum, sum.visible, sum.median_ms,
-           sum.p99_ms, sum.max_ms, sum.walk_ms, sum.test_ms);
+           sum.p99_ms, sum.max_ms, sum.walk_ms, sum.test_ms, sum.moved_ms);
     return true;
 }
 

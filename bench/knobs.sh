@@ -18,7 +18,7 @@ echo
 # shellcheck disable=SC2016 # Markdown's own quotes
 echo 'Written by `sh bench/knobs.sh`: method `fused` on one thread, one knob turned at a time, all settings of a scene'
 echo 'in turns. Times are milliseconds of the median frame and of the slowest, the median over the rounds; errors by'
-echo 'sampling at frames 0, 20 and 40, without the judge. Default: `--min-area 2e-4 --max-splits 48'
+echo 'sampling at frames 0, 20 and 40, without the judge. Default: `--min-area 3e-4 --max-splits 48'
 echo '--max-occluders 1024 --grain 64`.'
 setup=$(mktemp)
 "$program" scene city 1 2 --out "$setup.obs" >/dev/null

@@ -27,6 +27,9 @@ static const bench_command bench_commands[] = {
     {"picture", "picture F.obs --frame K --out P.png",
      "draw what was decided in a frame, from above and from the camera",
      "occlude-bench picture city.obs --frame 20 --out city.png", bench_picture},
+    {"image", "image F.obs --model MODEL [--frames LIST] [--size WxH] [--method M] ...",
+     "draw a converted model with and without culling, and compare every pixel",
+     "occlude-bench image hall.obs --model hall.obj --every 10", bench_image},
     {"truth", "truth F.obs --out T.tru [--frames LIST] [--size WxH]",
      "find out by sampling what can truly be seen",
      "occlude-bench truth city.obs --frames 0,20,40 --out city.tru", bench_truth},
@@ -61,7 +64,7 @@ static void print_usage(FILE *stream)
     fputs(
         "\n`occlude-bench COMMAND --help` tells all of a command's options. Exit status: 0; 1 if\n"
         "an input cannot be used (nothing is written then); 2 on bad usage; 3 if `compare`,\n"
-        "`hard` or `error` finds a visible object reported hidden that must not be.\n",
+        "`image`, `hard` or `error` finds a visible object reported hidden that must not be.\n",
         stream);
 }
 

@@ -24,7 +24,7 @@ typedef struct measure_bench {
     occ_view *view;
     occ_cull_desc knobs;
     uint32_t *mask, *list;
-    double *times;           // [3][frame][repeat]: whole, walk, test
+    double *times;           // [3][repeat] of a frame: whole, walk, test
     const peer_method *peer; // NULL: the library's own
     void *peer_state;
     uint64_t peer_bytes;
@@ -262,7 +262,6 @@ static bool warm_up(measure_bench *bench)
     for (uint32_t i = 0; i < result->frame_count; i++) {
         if (!cull_once(bench, &result->frames[i])) return false;
         vis_set_frame(&result->verdicts, i, bench->mask);
-        progress_step(i + 1);
     }
     return true;
 }
@@ -276,28 +275,35 @@ static bool equals_first_pass(const measure_bench *bench, uint32_t frame)
     return false;
 }
 
-static bool run_timed_passes(measure_bench *bench)
+// A frame right after another one, and then again and again.
+static bool time_frame(measure_bench *bench, uint32_t i)
 {
-    measure_result *result = bench->result;
-    size_t repeats = bench->settings->repeats, plane = result->frame_count * repeats;
-    for (size_t pass = 0; pass < repeats; pass++)
-        for (uint32_t i = 0; i < result->frame_count; i++) {
-            uint64_t before = bench->heap.calls;
-            if (!cull_once(bench, &result->frames[i])) return false;
-            result->timed_allocations += bench->heap.calls - before;
-            if (!equals_first_pass(bench, i)) return false;
-            double *times = bench->times + i * repeats + pass;
-            times[0] = result->frames[i].ms;
-            times[plane] = result->frames[i].stats.walk_ms;
-            times[2 * plane] = result->frames[i].stats.test_ms;
-            progress_step((pass + 1) * result->frame_count + i + 1);
+    measure_frame *frame = &bench->result->frames[i];
+    uint32_t repeats = bench->settings->repeats;
+    for (uint32_t r = 0; r <= repeats; r++) {
+        uint64_t before = bench->heap.calls;
+        if (!cull_once(bench, frame)) return false;
+        bench->result->timed_allocations += bench->heap.calls - before;
+        if (!equals_first_pass(bench, i)) return false;
+        progress_step((size_t)i * (repeats + 1) + r + 1);
+        if (!r) {
+            frame->moved_ms = frame->ms;
+            continue;
         }
-    for (uint32_t i = 0; i < result->frame_count; i++) {
-        double *times = bench->times + i * repeats;
-        result->frames[i].ms = timing_median(times, repeats);
-        result->frames[i].walk_ms = timing_median(times + plane, repeats);
-        result->frames[i].test_ms = timing_median(times + 2 * plane, repeats);
+        bench->times[r - 1] = frame->ms;
+        bench->times[repeats + r - 1] = frame->stats.walk_ms;
+        bench->times[2 * repeats + r - 1] = frame->stats.test_ms;
     }
+    frame->ms = timing_median(bench->times, repeats);
+    frame->walk_ms = timing_median(bench->times + repeats, repeats);
+    frame->test_ms = timing_median(bench->times + 2 * (size_t)repeats, repeats);
+    return true;
+}
+
+static bool time_frames(measure_bench *bench)
+{
+    for (uint32_t i = 0; i < bench->result->frame_count; i++)
+        if (!time_frame(bench, i)) return false;
     return true;
 }
 
@@ -325,7 +331,7 @@ static bool run_all(measure_bench *bench)
     if (bench->peer ? !open_peer(bench) : !make_view(bench)) return false;
     progress_begin("culling frames",
                    (size_t)bench->result->frame_count * (1 + bench->settings->repeats));
-    bool good = warm_up(bench) && run_timed_passes(bench);
+    bool good = warm_up(bench) && time_frames(bench);
     progress_end();
     if (!good) return false;
     return ask_for_sizes(bench);
@@ -339,8 +345,7 @@ static bool allocate_bench(measure_bench *bench)
     result->frames = calloc((size_t)result->frame_count + 1, sizeof *result->frames);
     bench->mask = calloc(OCC_MASK_WORDS(objects) + 1, sizeof *bench->mask);
     bench->list = calloc((size_t)objects + 1, sizeof *bench->list);
-    bench->times =
-        calloc((size_t)result->frame_count * bench->settings->repeats + 1, 3 * sizeof(double));
+    bench->times = calloc((size_t)bench->settings->repeats + 1, 3 * sizeof(double));
     bool good = vis_create(&result->verdicts, objects, result->frame_count);
     if (!good || !result->frames || !bench->mask || !bench->list || !bench->times)
         return is_out_of_memory();

@@ -26,10 +26,11 @@ typedef struct measure_settings {
     occ_cull_desc knobs;              ///< Its `method` follows from the name.
 } measure_settings;
 
-/// A frame's figures. Times are medians over its repeats, in milliseconds.
+/// A frame's figures. Times are medians over its repeats, which follow each other, in milliseconds.
 typedef struct measure_frame {
     uint32_t index; ///< In the file.
     double ms, walk_ms, test_ms;
+    double moved_ms; ///< Once, right after the frame before it in the file.
     uint32_t in_frustum;
     occ_view_stats stats; ///< For a peer only objects, tested, visible and times are set.
 } measure_frame;
@@ -77,7 +78,7 @@ void measure_free(measure_result *result);
 
 /// Median, 99th percentile, and mean counts over the frames.
 typedef struct measure_summary {
-    double median_ms, p99_ms, max_ms, walk_ms, test_ms;
+    double median_ms, p99_ms, max_ms, walk_ms, test_ms, moved_ms;
     double in_frustum, visible, tested;
 } measure_summary;
 

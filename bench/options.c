@@ -13,6 +13,17 @@ int options_complain(const char *command, const char *what)
     return 2;
 }
 
+int options_parse_scene(int argc, char **argv, const options_entry *entries, const char **scene)
+{
+    char *words[1];
+    int count = options_parse(argc, argv, entries, words, 1);
+    if (count == OPTIONS_HELP) return OPTIONS_HELP;
+    if (count == OPTIONS_BAD) return 2;
+    if (count != 1) return options_complain(argv[0], "expected a scene file");
+    *scene = words[0];
+    return 0;
+}
+
 static int complain_about(const char *command, const char *argument, const char *what)
 {
     char line[512];
@@ -29,6 +40,26 @@ bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *val
     unsigned long long number = strtoull(text, &end, 10);
     *value = number;
     return errno == 0 && *end == '\0' && number >= low && number <= high;
+}
+
+bool options_ascending(const char *text, uint32_t limit, uint32_t *list, uint32_t *count)
+{
+    *count = 0;
+    uint64_t next = 0;
+    for (;;) {
+        char number[16];
+        size_t length = strcspn(text, ",");
+        uint64_t value;
+        if (length >= sizeof number || limit == 0) return false;
+        memcpy(number, text, length);
+        number[length] = '\0';
+        if (!options_number(number, next, limit - 1, &value)) return false;
+        list[(*count)++] = (uint32_t)value;
+        next = value + 1;
+        text += length;
+        if (*text == '\0') return true;
+        text++;
+    }
 }
 
 bool options_size(const char *text, options_extent least, uint32_t most, options_extent *extent)

@@ -29,11 +29,19 @@ enum { OPTIONS_BAD = -1, OPTIONS_HELP = -2 };
 /// standard error.
 int options_parse(int argc, char **argv, const options_entry *entries, char **words, int capacity);
 
+/// The same for a subcommand whose one word is a scene file. Returns 0, OPTIONS_HELP, or 2 after a
+/// complaint.
+int options_parse_scene(int argc, char **argv, const options_entry *entries, const char **scene);
+
 /// One line about bad usage on standard error. Returns the exit status 2.
 int options_complain(const char *command, const char *what);
 
 /// A whole decimal number from `low` to `high`, and nothing else in the text.
 bool options_number(const char *text, uint64_t low, uint64_t high, uint64_t *value);
+
+/// Ascending numbers below `limit`, parted by commas, such as 0,20,40. `list` has room for `limit`
+/// of them.
+bool options_ascending(const char *text, uint32_t limit, uint32_t *list, uint32_t *count);
 
 /// The sides of a picture or viewport.
 typedef struct options_extent {

@@ -119,6 +119,9 @@ for model in alphacorp.obj institute.obj sponza.ply; do
     verdicts "$name" pairwise --repeat 1
     measure "$name" thesis plain --every 20 --repeat 1 --force
     picture "$name" 20
+    "$bench" image "$scenes/$name.obs" --model "$models/$model" --every 10 --csv "$results/$name-image.csv" \
+        --pictures "$results/$name" >"$results/$name-image.txt"
+    tail -n 1 "$results/$name-image.txt"
 done
 
 echo "The thesis's experiment..."

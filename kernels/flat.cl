@@ -210,9 +210,8 @@ occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *boun
 // What is found out about an object, by four items.
 #define SEEN_OUTSIDE  1u
 #define SEEN_HELD     2u
-#define SEEN_TOUCHED  4u
-#define SEEN_CENTERED 8u
-#define SEEN_SHOWS    16u
+#define SEEN_CENTERED 4u
+#define SEEN_SHOWS    8u
 
 // The first part of occ_flat_object(): an item asks every fourth candidate.
 inline uint ask_object(const occ_relative_box *box, __global const occ_eye *eye, uint planes,
@@ -226,20 +225,18 @@ inline uint ask_object(const occ_relative_box *box, __global const occ_eye *eye,
     for (uint i = quarter; i < count && !(seen & SEEN_HELD); i += QUARTERS) {
         __global const occ_shadow *shadow = &shadows[list[i]];
         if (shadow->owner == row) continue;
-        uint met = occ_flat_meet(box, shadow, &centered);
-        if (met == OCC_MEET_HELD) seen |= SEEN_HELD;
-        if (met == OCC_MEET_TOUCHES) seen |= SEEN_TOUCHED;
+        if (occ_flat_meet(box, shadow, &centered) == OCC_MEET_HELD) seen |= SEEN_HELD;
     }
     return centered ? seen | SEEN_CENTERED : seen;
 }
 
 // The verdict as far as that part goes.
 inline uint judge_object(const occ_relative_box *box, __global const occ_eye *eye, uint planes,
-                         uint seen, uint fused)
+                         uint seen, uint count, uint fused)
 {
     if (seen & SEEN_OUTSIDE) return OCC_OUTSIDE;
     if (seen & SEEN_HELD) return OCC_HIDDEN;
-    if (!(seen & SEEN_TOUCHED) || !fused) return OCC_VISIBLE;
+    if (!count || !fused) return OCC_VISIBLE;
     if (!(seen & SEEN_CENTERED) &&
         occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, planes)) {
         return OCC_VISIBLE;
@@ -276,7 +273,8 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         uint verdict = OCC_OUTSIDE;
-        if (row < rows) verdict = judge_object(&box, &frame->eye, planes, seen[o], frame->fused);
+        if (row < rows)
+            verdict = judge_object(&box, &frame->eye, planes, seen[o], listed, frame->fused);
         barrier(CLK_LOCAL_MEM_FENCE);
         if (verdict == OCC_UNRESOLVED &&
             occ_box_shows_corners(&box, &frame->eye, planes, shadows, list, listed, row,

@@ -15,7 +15,7 @@
 
 #define OCC_FLAT_ROWS    64u  // objects to a block
 #define OCC_FLAT_BLOCKS  64u  // blocks to a group
-#define OCC_FLAT_LIST    128u // candidates that a block keeps; fusion takes 64 that touch the object
+#define OCC_FLAT_LIST    128u // candidates that a block keeps
 #define OCC_FLAT_SHADOWS 1024u
 #define OCC_FLAT_WORDS   (OCC_FLAT_SHADOWS / 32u)
 #define OCC_FLAT_BOUNDS  6u // columns: least x, y, z, then most
@@ -140,17 +140,15 @@ OCC_FN occ_u32 occ_flat_object(const occ_relative_box *box, OCC_GLOBAL const occ
                                OCC_GLOBAL const occ_u32 *list, occ_u32 count, occ_u32 row,
                                occ_u32 fused)
 {
-    int centered = 0, touched = 0;
+    int centered = 0;
     if (!(box->t[0] == box->t[0])) return OCC_OUTSIDE;
     if (occ_box_outside(box, eye->plane[0], planes)) return OCC_OUTSIDE;
     for (occ_u32 i = 0; i < count; i++) {
         OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
         if (shadow->owner == row) continue;
-        occ_u32 met = occ_flat_meet(box, shadow, &centered);
-        if (met == OCC_MEET_HELD) return OCC_HIDDEN;
-        touched = touched || met == OCC_MEET_TOUCHES;
+        if (occ_flat_meet(box, shadow, &centered) == OCC_MEET_HELD) return OCC_HIDDEN;
     }
-    if (!touched || !fused) return OCC_VISIBLE;
+    if (!count || !fused) return OCC_VISIBLE;
     if (!centered && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, planes)) {
         return OCC_VISIBLE;
     }

@@ -7,50 +7,25 @@
 
 #define FUSE_ITEMS 32u
 
-typedef struct fuse_piece {
-    float x[OCC_PIECE_VERTICES], y[OCC_PIECE_VERTICES], z[OCC_PIECE_VERTICES];
-    float w[OCC_PIECE_VERTICES], e[OCC_PIECE_VERTICES];
-    uint count, cuts;
-} fuse_piece;
+// What is known of a candidate.
+#define FUSE_TOUCHES 1u // it is not the object's own, and may hold some of it
+#define FUSE_BEHIND  2u // all of the object is behind its faces
 
 typedef struct fuse_group {
-    fuse_piece stack[OCC_FUSION_STACK + 1u];
-    fuse_piece piece; // in hand
-    float at[OCC_PIECE_VERTICES], least[OCC_PIECE_VERTICES];
-    float cut[2][5]; // where the edge comes in, and where it goes out
-    uint failed;
-    uint planes[OCC_FLAT_LIST]; // that cut the object, of each candidate
-    uint faces, held, found;
+    occ_piece stack[OCC_FUSION_STACK + 1u]; // the last one is for what a cut leaves over
+    occ_piece piece;                        // in hand
+    float at[OCC_PIECE_VERTICES];
+    occ_vertex cut[2]; // where the outline comes in, and where it goes out
+    uint failed, cutting, found, refused;
+    uint candidate[OCC_FLAT_LIST];
     occ_outline outline;
 } fuse_group;
 
-inline void get_vertex(occ_vertex *v, __local const fuse_piece *piece, uint i)
+inline void copy_piece(__local occ_piece *to, __local const occ_piece *from, uint item)
 {
-    v->x = piece->x[i];
-    v->y = piece->y[i];
-    v->z = piece->z[i];
-    v->w = piece->w[i];
-    v->e = piece->e[i];
-}
-
-inline void put_vertex(__local fuse_piece *piece, uint i, const occ_vertex *v)
-{
-    piece->x[i] = v->x;
-    piece->y[i] = v->y;
-    piece->z[i] = v->z;
-    piece->w[i] = v->w;
-    piece->e[i] = v->e;
-}
-
-inline void copy_piece(__local fuse_piece *to, __local const fuse_piece *from, uint item)
-{
-    occ_vertex v;
     if (to == from) return;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < from->count) {
-        get_vertex(&v, from, item);
-        put_vertex(to, item, &v);
-    }
+    if (item < from->count) to->v[item] = from->v[item];
     if (item == 0) {
         to->count = from->count;
         to->cuts = from->cuts;
@@ -60,204 +35,212 @@ inline void copy_piece(__local fuse_piece *to, __local const fuse_piece *from, u
 
 // --- cutting -------------------------------------------------------------------------------------
 
-// What all items know of a cut.
-typedef struct fuse_crossing {
-    float level;
-    uint in, entries, first, last;
-} fuse_crossing;
-
-// (Loops of a fixed length, so that the loads of all rounds are under way at once.)
-inline void find_crossing(__local const fuse_group *group, uint count, fuse_crossing *cross)
+// How far inside the plane each vertex is; every item may ask afterwards.
+inline void measure_piece(__local fuse_group *group, __local const occ_piece *piece,
+                          const occ_cutter *n, uint item)
 {
-    float level = 0.0f;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item < piece->count) {
+        occ_vertex v = piece->v[item];
+        group->at[item] = occ_vertex_at(&v, n);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+// Bit i: vertex i is more than `least` inside. (A loop of a fixed length, so that the loads of all
+// rounds are under way at once.)
+inline uint vertices_inside(__local const fuse_group *group, uint count, float least)
+{
     uint inside = 0;
 #pragma unroll
-    for (uint i = 0; i < OCC_PIECE_VERTICES; i++) {
-        float least = i < count ? 2.0f * group->least[i] : 0.0f;
-        if (least > level) level = least;
-    }
-#pragma unroll
     for (uint i = 0; i < OCC_PIECE_VERTICES; i++)
-        if (i < count && group->at[i] > level) inside |= 1u << i;
-    // Bit i: vertex i is inside and the one before it is not, and the other way round.
-    uint before = (inside << 1 | inside >> (count - 1u)) & ((1u << count) - 1u);
-    uint enters = inside & ~before, leaves = before & ~inside;
-    cross->level = level;
-    cross->in = popcount(inside);
-    cross->entries = popcount(enters);
-    cross->first = enters ? 31u - clz(enters & (0u - enters)) : 0u;
-    cross->last = leaves ? 31u - clz(leaves & (0u - leaves)) : 0u;
+        if (i < count && group->at[i] > least) inside |= 1u << i;
+    return inside;
 }
 
-// Vertex `item` of the part that begins with cut `a`, goes on with `run` vertices from `first`, and
-// ends with the other cut.
-inline void part_vertex(__local const fuse_group *group, __local const fuse_piece *piece, uint item,
-                        uint a, uint first, uint run, occ_vertex *v)
+inline uint lowest_bit(uint bits)
 {
-    if (item > 0 && item <= run) {
-        uint i = first + item - 1u;
-        get_vertex(v, piece, i < piece->count ? i : i - piece->count);
-        return;
-    }
-    __local const float *cut = group->cut[item ? 1u - a : a];
-    v->x = cut[0];
-    v->y = cut[1];
-    v->z = cut[2];
-    v->w = cut[3];
-    v->e = cut[4];
+    return 31u - clz(bits & (0u - bits));
 }
 
-// Items 0 and 1 find where the edges cross.
-inline void cross_edges(__local fuse_group *group, __local const fuse_piece *piece,
-                        const fuse_crossing *cross, const occ_cutter *n, uint item)
+// Items 0 and 1 find where the outline crosses, between the vertices before `first` and `last` and
+// those.
+inline void cross_edges(__local fuse_group *group, __local const occ_piece *piece, uint first,
+                        uint last, const occ_cutter *n, uint item)
 {
-    if (item > 1u) return;
-    uint count = piece->count;
-    uint inner = item ? (cross->last ? cross->last : count) - 1u : cross->first;
-    uint outer = item ? cross->last : (cross->first ? cross->first : count) - 1u;
-    occ_vertex a, b, c;
-    get_vertex(&a, piece, inner);
-    get_vertex(&b, piece, outer);
-    if (!occ_vertex_between(&a, group->at[inner], &b, group->at[outer], cross->level, n, &c)) {
-        atomic_or(&group->failed, 1u);
-    }
-    __local float *cut = group->cut[item];
-    cut[0] = c.x;
-    cut[1] = c.y;
-    cut[2] = c.z;
-    cut[3] = c.w;
-    cut[4] = c.e;
-}
-
-// As occ_piece_cut(). `inside` may be the piece itself.
-inline uint cut_piece(__local fuse_group *group, __local fuse_piece *piece, const occ_cutter *n,
-                      __local fuse_piece *inside, __local fuse_piece *outside, uint item)
-{
-    barrier(CLK_LOCAL_MEM_FENCE);
-    uint count = piece->count, cuts = piece->cuts;
-    occ_vertex v, rest;
-    if (item < count) {
-        get_vertex(&v, piece, item);
-        group->at[item] = occ_vertex_at(&v, n);
-        group->least[item] = occ_vertex_least(&v, n);
-    }
     if (item == 0) group->failed = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    fuse_crossing cross;
-    find_crossing(group, count, &cross);
-    uint in = cross.in, out = count - in, result = OCC_CUT_TWO;
-    if (!in) {
-        result = OCC_CUT_OUTSIDE;
-    } else if (!out) {
-        result = OCC_CUT_INSIDE;
-    } else if (cuts == OCC_PIECE_CUTS || in + 2u > OCC_PIECE_VERTICES ||
-               out + 2u > OCC_PIECE_VERTICES || cross.entries != 1u) {
-        result = OCC_CUT_FAILED;
-    } else {
-        cross_edges(group, piece, &cross, n, item);
-        barrier(CLK_LOCAL_MEM_FENCE);
-        if (item < in + 2u) part_vertex(group, piece, item, 0u, cross.first, in, &v);
-        if (item < out + 2u) part_vertex(group, piece, item, 1u, cross.last, out, &rest);
-        if (group->failed) result = OCC_CUT_FAILED;
-        barrier(CLK_LOCAL_MEM_FENCE);
-        if (result == OCC_CUT_TWO) {
-            if (item < in + 2u) put_vertex(inside, item, &v);
-            if (item < out + 2u) put_vertex(outside, item, &rest);
-            if (item == 0) {
-                inside->count = in + 2u;
-                outside->count = out + 2u;
-                inside->cuts = outside->cuts = cuts + 1u;
-            }
+    if (item < 2u) {
+        uint end = item ? last : first, before = (end ? end : piece->count) - 1u;
+        uint inner = item ? before : end, outer = item ? end : before;
+        occ_vertex a = piece->v[inner], b = piece->v[outer], c;
+        if (!occ_vertex_between(&a, group->at[inner], &b, group->at[outer],
+                                OCC_CUT_LEVEL(piece->cuts), OCC_VERTEX_LEAST(piece->cuts + 1u), n,
+                                &c)) {
+            atomic_or(&group->failed, 1u);
         }
-        barrier(CLK_LOCAL_MEM_FENCE);
+        group->cut[item] = c;
     }
-    return result;
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+// Vertex `item` of a part: `run` vertices from `first` on, then cut `a` and the other one.
+inline occ_vertex part_vertex(__local const fuse_group *group, __local const occ_piece *piece,
+                              uint item, uint first, uint run, uint a)
+{
+    uint i = first + item;
+    if (item >= run) return group->cut[item == run ? a : 1u - a];
+    return piece->v[i < piece->count ? i : i - piece->count];
+}
+
+// Both parts of a piece that has been found to be cut; `inside` may be the piece itself.
+inline void part_piece(__local const fuse_group *group, __local const occ_piece *piece, uint first,
+                       uint last, uint in, __local occ_piece *inside, __local occ_piece *outside,
+                       uint item)
+{
+    uint out = piece->count - in, cuts = piece->cuts + 1u;
+    occ_vertex v, rest;
+    if (item < in + 2u) v = part_vertex(group, piece, item, first, in, 1u);
+    if (item < out + 2u) rest = part_vertex(group, piece, item, last, out, 0u);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item < in + 2u) inside->v[item] = v;
+    if (item < out + 2u) outside->v[item] = rest;
+    if (item == 0) {
+        inside->count = in + 2u;
+        outside->count = out + 2u;
+        inside->cuts = outside->cuts = cuts;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+// As occ_piece_cut(), of a piece that has been measured.
+inline uint cut_piece(__local fuse_group *group, __local const occ_piece *piece,
+                      const occ_cutter *n, __local occ_piece *inside, __local occ_piece *outside,
+                      uint item)
+{
+    uint count = piece->count, within = vertices_inside(group, count, OCC_CUT_LEVEL(piece->cuts));
+    // Bit i: vertex i is inside and the one before it is not, and the other way round.
+    uint before = (within << 1 | within >> (count - 1u)) & ((1u << count) - 1u);
+    uint enters = within & ~before, leaves = before & ~within, in = popcount(within);
+    if (!in) return OCC_CUT_OUTSIDE;
+    if (in == count) return OCC_CUT_INSIDE;
+    if (piece->cuts == OCC_PIECE_CUTS || count == OCC_PIECE_VERTICES || popcount(enters) != 1) {
+        return OCC_CUT_FAILED;
+    }
+    uint first = lowest_bit(enters), last = lowest_bit(leaves);
+    cross_edges(group, piece, first, last, n, item);
+    if (group->failed) return OCC_CUT_FAILED;
+    part_piece(group, piece, first, last, in, inside, outside, item);
+    return OCC_CUT_TWO;
+}
+
+// As occ_piece_halve(), for both halves of the piece in hand.
+inline void halve_piece(__local fuse_group *group, uint depth, uint item)
+{
+    uint vertices = OCC_PIECE_VERTICES / 2u + 1u, which = item / vertices, i = item % vertices;
+    if (which < 2u) {
+        __local occ_piece *part = &group->stack[depth + which];
+        part->v[i] = group->piece.v[(which * (OCC_PIECE_VERTICES / 2u) + i) % OCC_PIECE_VERTICES];
+        if (i == 0) {
+            part->count = vertices;
+            part->cuts = group->piece.cuts;
+        }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
 }
 
 // --- candidates ----------------------------------------------------------------------------------
 
-// Fusion takes the first that touch the object, and no more than it has room for.
-inline void drop_surplus(__local fuse_group *group, uint count)
-{
-    uint taken = 0;
-    for (uint i = 0; i < count; i++) {
-        if (taken == OCC_FUSION_CANDIDATES) group->planes[i] = 0;
-        taken += group->planes[i] != 0;
-    }
-}
-
-// As occ_fusion_consider(), for all of a block's list. Candidates that do not touch the object have
-// no planes.
+// What there is to know of the block's candidates, once for an object.
 inline void consider_all(__local fuse_group *group, const occ_relative_box *box,
                          __global const occ_shadow *shadows, __global const uint *list, uint count,
                          uint row, uint item)
 {
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (item == 0) group->faces = group->held = 0;
-    barrier(CLK_LOCAL_MEM_FENCE);
     for (uint i = item; i < count; i += FUSE_ITEMS) {
         __global const occ_shadow *shadow = &shadows[list[i]];
-        uint cutting = 0, apart = shadow->owner == row;
+        uint apart = shadow->owner == row, behind = 1u;
         for (uint p = 0; p < shadow->planes && !apart; p++) {
             OCC_PLANES_OF n = shadow->plane[p];
             float s = OCC_PLANE_AT(n[0], n[1], n[2], n[3], box->t[0], box->t[1], box->t[2]);
             float r = occ_box_reach(box, n[0], n[1], n[2]);
             apart = OCC_IS_OUTSIDE(s, r, box->e);
-            if (!OCC_IS_INSIDE(s, r, box->e)) cutting |= 1u << p;
+            if (p >= occ_shadow_silhouettes(shadow) && !OCC_IS_INSIDE(s, r, box->e)) behind = 0;
         }
-        if (!apart && !cutting) atomic_or(&group->held, 1u);
-        group->planes[i] = apart ? 0u : cutting;
+        group->candidate[i] = apart ? 0u : behind ? FUSE_TOUCHES | FUSE_BEHIND : FUSE_TOUCHES;
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (item == 0 && count > OCC_FUSION_CANDIDATES) drop_surplus(group, count);
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint i = item; i < count; i += FUSE_ITEMS)
-        if (group->planes[i] >> occ_shadow_silhouettes(&shadows[list[i]])) {
-            atomic_or(&group->faces, 1u);
-        }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-// As occ_fusion_find().
-inline uint find_candidate(__local fuse_group *group, __local const fuse_piece *top,
+// As occ_fusion_find(), which goes through the list in order: *faces is only of what comes before
+// the one that is found.
+inline uint find_candidate(__local fuse_group *group, __local const occ_piece *top,
                            __global const occ_shadow *shadows, __global const uint *list,
-                           uint count, int by_faces, uint item)
+                           uint count, float object, int by_faces, int *faces, uint item)
 {
-    occ_vertex a, b, c, middle;
-    get_vertex(&a, top, 0);
-    get_vertex(&b, top, top->count / OCC_MIDDLE_CORNERS);
-    get_vertex(&c, top, 2u * top->count / OCC_MIDDLE_CORNERS);
+    occ_vertex middle;
+    if (item == 0) group->found = group->refused = count;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    uint third = top->count / OCC_MIDDLE_CORNERS, thirds = 2u * top->count / OCC_MIDDLE_CORNERS;
+    occ_vertex a = top->v[0], b = top->v[third], c = top->v[thirds];
     middle.x = (a.x + b.x) + c.x;
     middle.y = (a.y + b.y) + c.y;
     middle.z = (a.z + b.z) + c.z;
     middle.w = (a.w + b.w) + c.w;
-    middle.e = (a.e + b.e) + c.e;
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (item == 0) group->found = count;
-    barrier(CLK_LOCAL_MEM_FENCE);
     for (uint i = item; i < count; i += FUSE_ITEMS) {
-        uint planes = group->planes[i];
-        __global const occ_shadow *shadow = &shadows[list[i]];
-        if (!planes || (!by_faces && planes >> occ_shadow_silhouettes(shadow))) continue;
-        if (!occ_shadow_holds(shadow, planes, &middle)) continue;
-        atomic_min(&group->found, i);
-        break;
+        uint known = group->candidate[i];
+        if (!known || !occ_shadow_holds(&shadows[list[i]], &middle, top->cuts, object)) continue;
+        if (by_faces || (known & FUSE_BEHIND)) {
+            atomic_min(&group->found, i);
+            break;
+        }
+        atomic_min(&group->refused, i);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    return group->found;
+    uint found = group->found;
+    *faces = *faces || group->refused < found;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    return found;
 }
 
 // --- the object ----------------------------------------------------------------------------------
 
+// Which planes of a shadow not all of the piece in hand is inside of, for certain.
+inline uint cutting_planes(__local fuse_group *group, __global const occ_shadow *shadow,
+                           float object, uint item)
+{
+    uint count = group->piece.count;
+    float least = OCC_VERTEX_LEAST(group->piece.cuts);
+    if (item == 0) group->cutting = 0;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint k = item; k < shadow->planes * OCC_PIECE_VERTICES; k += FUSE_ITEMS) {
+        uint p = k / OCC_PIECE_VERTICES, i = k % OCC_PIECE_VERTICES;
+        occ_cutter n;
+        if (i >= count) continue;
+        occ_vertex v = group->piece.v[i];
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
+        if (!(occ_vertex_at(&v, &n) > least)) atomic_or(&group->cutting, 1u << p);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    return group->cutting;
+}
+
 // As occ_fusion_subtract(). Returns the new depth, or OCC_FLAT_OUTSIDE if that cannot be done.
 inline uint subtract(__local fuse_group *group, uint depth, __global const occ_shadow *shadow,
-                     uint planes, uint item)
+                     float object, uint item)
 {
     copy_piece(&group->piece, &group->stack[--depth], item);
-    for (; planes; planes &= planes - 1u) {
+    for (uint left = cutting_planes(group, shadow, object, item); left; left &= left - 1u) {
         occ_cutter n;
-        occ_cutter_set(&n, shadow->plane[31u - clz(planes & (0u - planes))], 1.0f);
-        if (depth == OCC_FUSION_STACK) return OCC_FLAT_OUTSIDE;
+        occ_cutter_set(&n, shadow->plane[lowest_bit(left)], 1.0f, object);
+        if (depth + 2u > OCC_FUSION_STACK) return OCC_FLAT_OUTSIDE;
+        measure_piece(group, &group->piece, &n, item);
+        float least = OCC_VERTEX_LEAST(group->piece.cuts);
+        if (group->piece.count == OCC_PIECE_VERTICES &&
+            popcount(vertices_inside(group, OCC_PIECE_VERTICES, least)) != OCC_PIECE_VERTICES) {
+            halve_piece(group, depth, item);
+            return depth + 2u;
+        }
         uint cut = cut_piece(group, &group->piece, &n, &group->piece, &group->stack[depth], item);
         if (cut == OCC_CUT_OUTSIDE || cut == OCC_CUT_FAILED) return OCC_FLAT_OUTSIDE;
         depth += cut == OCC_CUT_TWO;
@@ -267,15 +250,16 @@ inline uint subtract(__local fuse_group *group, uint depth, __global const occ_s
 
 // As occ_fusion_clip(). Returns the new depth.
 inline uint clip_pieces(__local fuse_group *group, uint depth, __global const occ_eye *eye,
-                        uint mask, uint item)
+                        uint mask, float object, uint item)
 {
     for (uint p = 0; p < OCC_SIDE_PLANES; p++) {
         if (!(mask >> p & 1u)) continue;
         occ_cutter beyond;
-        occ_cutter_set(&beyond, eye->plane[p], -1.0f);
+        occ_cutter_set(&beyond, eye->plane[p], -1.0f, object);
         uint kept = 0;
         for (uint i = 0; i < depth; i++) {
-            __local fuse_piece *rest = &group->stack[OCC_FUSION_STACK];
+            __local occ_piece *rest = &group->stack[OCC_FUSION_STACK];
+            measure_piece(group, &group->stack[i], &beyond, item);
             uint cut = cut_piece(group, &group->stack[i], &beyond, &group->piece, rest, item);
             if (cut == OCC_CUT_INSIDE) continue;
             copy_piece(&group->stack[kept++], cut == OCC_CUT_TWO ? rest : &group->stack[i], item);
@@ -301,12 +285,12 @@ inline uint see_outline(__local fuse_group *group, const occ_relative_box *box,
     barrier(CLK_LOCAL_MEM_FENCE);
     if (failed) return 0;
     for (uint i = item; i < polygons * corners; i += FUSE_ITEMS) {
-        __local fuse_piece *piece = &group->stack[i / corners];
+        __local occ_piece *piece = &group->stack[i / corners];
         occ_vertex v;
-        if (!occ_outline_corner(box, group->outline.corner[i / corners][i % corners], &v)) {
+        if (!occ_outline_vertex(box, group->outline.corner[i / corners][i % corners], &v)) {
             atomic_or(&group->failed, 1u);
         }
-        put_vertex(piece, i % corners, &v);
+        piece->v[i % corners] = v;
         if (i % corners == 0) {
             piece->count = corners;
             piece->cuts = 0;
@@ -316,19 +300,20 @@ inline uint see_outline(__local fuse_group *group, const occ_relative_box *box,
     return group->failed ? 0u : polygons;
 }
 
-// As occ_fusion_covers(), from the outline on.
+// As occ_fusion_covers(), from the outline on. *faces: as in fusion.h.
 inline int covers(__local fuse_group *group, const occ_relative_box *box,
                   __global const occ_eye *eye, uint mask, __global const occ_shadow *shadows,
-                  __global const uint *list, uint count, int by_faces, uint item)
+                  __global const uint *list, uint count, int by_faces, int *faces, uint item)
 {
-    uint depth = see_outline(group, box, eye, by_faces, item), split = 0;
+    uint depth = see_outline(group, box, eye, by_faces, item);
+    *faces = 0;
     if (!depth) return 0;
-    depth = clip_pieces(group, depth, eye, mask, item);
-    for (; depth && depth != OCC_FLAT_OUTSIDE; split++) {
-        uint i =
-            find_candidate(group, &group->stack[depth - 1u], shadows, list, count, by_faces, item);
+    depth = clip_pieces(group, depth, eye, mask, box->e, item);
+    for (uint split = 0; depth && depth != OCC_FLAT_OUTSIDE; split++) {
+        uint i = find_candidate(group, &group->stack[depth - 1u], shadows, list, count, box->e,
+                                by_faces, faces, item);
         if (i == count || split == eye->splits) return 0;
-        depth = subtract(group, depth, &shadows[list[i]], group->planes[i], item);
+        depth = subtract(group, depth, &shadows[list[i]], box->e, item);
     }
     return depth == 0;
 }
@@ -338,11 +323,10 @@ inline int group_fuses(__local fuse_group *group, const occ_relative_box *box,
                        __global const occ_eye *eye, uint mask, __global const occ_shadow *shadows,
                        __global const uint *list, uint count, uint row, uint item)
 {
+    int faces;
     consider_all(group, box, shadows, list, count, row, item);
-    uint held = group->held, faces = group->faces;
-    if (held) return 1;
-    if (covers(group, box, eye, mask, shadows, list, count, 0, item)) return 1;
-    return faces && covers(group, box, eye, mask, shadows, list, count, 1, item);
+    if (covers(group, box, eye, mask, shadows, list, count, 0, &faces, item)) return 1;
+    return faces && covers(group, box, eye, mask, shadows, list, count, 1, &faces, item);
 }
 
 // As occ_flat_fuse().

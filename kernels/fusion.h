@@ -9,59 +9,20 @@
 
 #include "outline.h"
 
-#define OCC_SIDE_PLANES       4u // left, right, bottom, top; near and far follow
-#define OCC_FUSION_STACK      16u
-#define OCC_FUSION_CANDIDATES 64u
+#define OCC_SIDE_PLANES  4u // left, right, bottom, top; near and far follow
+#define OCC_FUSION_STACK 16u
 
-// The shadows that the object touches, and the pieces in hand.
+// The pieces in hand.
 typedef struct occ_fusion {
     occ_piece stack[OCC_FUSION_STACK];
     occ_u32 depth;
-    occ_u32 candidate[OCC_FUSION_CANDIDATES];
-    occ_u32 planes[OCC_FUSION_CANDIDATES]; // bit p: plane p of the shadow cuts the object
-    occ_u32 candidates;
-    occ_u32 faces; // whether a face is among those planes
-    int held;      // whether a shadow holds the object's center
+    int faces; // whether what was last looked for was there, but for the box not being behind it
 } occ_fusion;
 
 // How many planes of a shadow are silhouettes; those of faces come after them.
 OCC_FN occ_u32 occ_shadow_silhouettes(OCC_GLOBAL const occ_shadow *shadow)
 {
     return shadow->planes == 5u ? 4u : 6u;
-}
-
-// (A structure that is returned by value would do; oclgrind does not know what LLVM makes of it.)
-OCC_FN void occ_cutter_set(occ_cutter *n, OCC_PLANES_OF plane, float turn)
-{
-    n->x = turn * plane[0];
-    n->y = turn * plane[1];
-    n->z = turn * plane[2];
-    n->d = turn * plane[3];
-}
-
-// Lists a shadow that the object touches, with the planes that cut the object. Returns whether it
-// holds all of the object.
-OCC_FN int occ_fusion_consider(occ_fusion *fusion, const occ_relative_box *box,
-                               OCC_GLOBAL const occ_shadow *shadow, occ_u32 index)
-{
-    occ_u32 cutting = 0;
-    int held = 1;
-    for (occ_u32 p = 0; p < shadow->planes; p++) {
-        OCC_PLANES_OF plane = shadow->plane[p];
-        float s =
-            OCC_PLANE_AT(plane[0], plane[1], plane[2], plane[3], box->t[0], box->t[1], box->t[2]);
-        float r = occ_box_reach(box, plane[0], plane[1], plane[2]);
-        if (OCC_IS_OUTSIDE(s, r, box->e)) return 0;
-        if (!OCC_IS_INSIDE(s, r, box->e)) cutting |= 1u << p;
-        held = held && s > box->e;
-    }
-    if (!cutting) return 1;
-    fusion->held = fusion->held || held;
-    if (fusion->candidates == OCC_FUSION_CANDIDATES) return 0;
-    fusion->faces |= cutting >> occ_shadow_silhouettes(shadow);
-    fusion->candidate[fusion->candidates] = index;
-    fusion->planes[fusion->candidates++] = cutting;
-    return 0;
 }
 
 // The sum of three corners of a piece: three times a point inside.
@@ -75,64 +36,103 @@ OCC_FN void occ_piece_middle(const occ_piece *piece, occ_vertex *middle)
     middle->y = (a->y + b->y) + c->y;
     middle->z = (a->z + b->z) + c->z;
     middle->w = (a->w + b->w) + c->w;
-    middle->e = (a->e + b->e) + c->e;
 }
 
-// Whether a shadow's planes hold the middle with room to spare, so that cutting gets somewhere.
-OCC_FN int occ_shadow_holds(OCC_GLOBAL const occ_shadow *shadow, occ_u32 planes,
-                            const occ_vertex *middle)
+// Whether a shadow holds the middle of a piece with room to spare, so that cutting gets somewhere.
+OCC_FN int occ_shadow_holds(OCC_GLOBAL const occ_shadow *shadow, const occ_vertex *middle,
+                            occ_u32 cuts, float object)
 {
     for (occ_u32 p = 0; p < shadow->planes; p++) {
-        if (!(planes >> p & 1u)) continue;
         occ_cutter n;
-        occ_cutter_set(&n, shadow->plane[p], 1.0f);
-        float least = OCC_MIDDLE_LEAST(middle->e, n.d * middle->w);
-        if (!(occ_vertex_at(middle, &n) > least)) return 0;
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
+        if (!(occ_vertex_at(middle, &n) > OCC_MIDDLE_LEAST(cuts))) return 0;
     }
     return 1;
 }
 
-// The first candidate that holds the middle of the piece on top of the stack, or their number.
-OCC_FN occ_u32 occ_fusion_find(const occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadows,
-                               int by_faces)
+// All of the box is behind the faces of a shadow's occluder.
+OCC_FN int occ_box_is_behind(const occ_relative_box *box, OCC_GLOBAL const occ_shadow *shadow)
+{
+    for (occ_u32 p = occ_shadow_silhouettes(shadow); p < shadow->planes; p++)
+        if (!occ_box_in_shadow(box, shadow->plane[p], 1)) return 0;
+    return 1;
+}
+
+// Whether a shadow that holds the middle of a piece may be taken from it. An outline is no part of
+// the object's surface: unless it is of faces, the box has to be wholly behind.
+OCC_FN int occ_fusion_accepts(occ_fusion *fusion, const occ_relative_box *box,
+                              OCC_GLOBAL const occ_shadow *shadow, int by_faces)
+{
+    if (by_faces || occ_box_is_behind(box, shadow)) return 1;
+    fusion->faces = 1;
+    return 0;
+}
+
+// The first of the list that may be taken from the piece on top of the stack, or their number.
+OCC_FN occ_u32 occ_fusion_find(occ_fusion *fusion, const occ_relative_box *box,
+                               OCC_GLOBAL const occ_shadow *shadows, OCC_GLOBAL const occ_u32 *list,
+                               occ_u32 count, occ_u32 row, int by_faces)
 {
     const occ_piece *top = &fusion->stack[fusion->depth - 1];
     occ_vertex middle;
     occ_piece_middle(top, &middle);
-    occ_u32 i = 0;
-    for (; i < fusion->candidates; i++) {
-        OCC_GLOBAL const occ_shadow *shadow = &shadows[fusion->candidate[i]];
-        if (!by_faces && fusion->planes[i] >> occ_shadow_silhouettes(shadow)) continue;
-        if (occ_shadow_holds(shadow, fusion->planes[i], &middle)) break;
+    for (occ_u32 i = 0; i < count; i++) {
+        OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
+        if (shadow->owner != row && occ_shadow_holds(shadow, &middle, top->cuts, box->e) &&
+            occ_fusion_accepts(fusion, box, shadow, by_faces)) {
+            return i;
+        }
     }
-    return i;
+    return count;
 }
 
-// Takes a shadow from the piece on top of the stack, which it replaces by what is left. 0 if that
-// cannot be done.
+// Cuts a piece: the part outside goes on the stack, where there is room for two. One of eight
+// vertices goes there in halves, to be met again. Whether there is something left to cut: *failed
+// says why if there is not.
+OCC_FN int occ_fusion_cut(occ_fusion *fusion, occ_piece *piece, const occ_cutter *n, int *failed)
+{
+    if (piece->count == OCC_PIECE_VERTICES && !occ_piece_is_inside(piece, n)) {
+        occ_piece_halve(&fusion->stack[fusion->depth++], piece, 0);
+        occ_piece_halve(&fusion->stack[fusion->depth++], piece, OCC_PIECE_VERTICES / 2);
+        return 0;
+    }
+    int cut = occ_piece_cut(piece, n, piece, &fusion->stack[fusion->depth]);
+    if (cut == OCC_CUT_TWO) fusion->depth++;
+    *failed = cut == OCC_CUT_OUTSIDE || cut == OCC_CUT_FAILED;
+    return !*failed;
+}
+
+// Takes a shadow from the piece on top of the stack, which it replaces by what is left. Planes that
+// all of the piece is inside of do not cut it, nor what others leave of it. 0 if that cannot be
+// done.
 OCC_FN int occ_fusion_subtract(occ_fusion *fusion, OCC_GLOBAL const occ_shadow *shadow,
-                               occ_u32 planes)
+                               float object)
 {
     occ_piece piece = fusion->stack[--fusion->depth];
+    occ_u32 cutting = 0;
+    occ_cutter n;
     for (occ_u32 p = 0; p < shadow->planes; p++) {
-        if (!(planes >> p & 1u)) continue;
-        occ_cutter n;
-        occ_cutter_set(&n, shadow->plane[p], 1.0f);
-        if (fusion->depth == OCC_FUSION_STACK) return 0;
-        int cut = occ_piece_cut(&piece, &n, &piece, &fusion->stack[fusion->depth]);
-        if (cut == OCC_CUT_OUTSIDE || cut == OCC_CUT_FAILED) return 0;
-        if (cut == OCC_CUT_TWO) fusion->depth++;
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
+        cutting |= (occ_u32)!occ_piece_is_inside(&piece, &n) << p;
+    }
+    for (occ_u32 p = 0; p < shadow->planes; p++) {
+        int failed = 0;
+        if (!(cutting >> p & 1u)) continue;
+        occ_cutter_set(&n, shadow->plane[p], 1.0f, object);
+        if (fusion->depth + 2u > OCC_FUSION_STACK) return 0;
+        if (!occ_fusion_cut(fusion, &piece, &n, &failed)) return !failed;
     }
     return 1;
 }
 
 // Takes away what is outside of the frustum's side planes that `mask` names.
-OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask)
+OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
+                            float object)
 {
     for (occ_u32 p = 0; p < OCC_SIDE_PLANES; p++) {
         if (!(mask >> p & 1u)) continue;
         occ_cutter beyond;
-        occ_cutter_set(&beyond, eye->plane[p], -1.0f);
+        occ_cutter_set(&beyond, eye->plane[p], -1.0f, object);
         occ_u32 kept = 0;
         for (occ_u32 i = 0; i < fusion->depth; i++) {
             occ_piece lost, rest;
@@ -145,16 +145,18 @@ OCC_FN void occ_fusion_clip(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, o
     }
 }
 
-// Whether the candidates hide the pieces on the stack. An outline is no part of the object's
-// surface: unless it is of faces, only candidates that are wholly in front may be taken from it.
-OCC_FN int occ_fusion_covers(occ_fusion *fusion, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
-                             OCC_GLOBAL const occ_shadow *shadows, int by_faces)
+// Whether the listed shadows hide the pieces on the stack.
+OCC_FN int occ_fusion_covers(occ_fusion *fusion, const occ_relative_box *box,
+                             OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
+                             OCC_GLOBAL const occ_shadow *shadows, OCC_GLOBAL const occ_u32 *list,
+                             occ_u32 count, occ_u32 row, int by_faces)
 {
-    occ_fusion_clip(fusion, eye, mask);
+    fusion->faces = 0;
+    occ_fusion_clip(fusion, eye, mask, box->e);
     for (occ_u32 split = 0; fusion->depth; split++) {
-        occ_u32 i = occ_fusion_find(fusion, shadows, by_faces);
-        if (i == fusion->candidates || split == eye->splits ||
-            !occ_fusion_subtract(fusion, &shadows[fusion->candidate[i]], fusion->planes[i])) {
+        occ_u32 i = occ_fusion_find(fusion, box, shadows, list, count, row, by_faces);
+        if (i == count || split == eye->splits ||
+            !occ_fusion_subtract(fusion, &shadows[list[i]], box->e)) {
             return 0;
         }
     }
@@ -211,6 +213,22 @@ OCC_FN int occ_box_shows_corner(const occ_relative_box *box, OCC_GLOBAL const oc
     return occ_box_shows_corners(box, eye, mask, shadows, list, count, row, 0, 8u);
 }
 
+// Whether a shadow holds all of the box. *held: one holds its center.
+OCC_FN int occ_box_hidden_alone(const occ_relative_box *box, OCC_GLOBAL const occ_shadow *shadows,
+                                OCC_GLOBAL const occ_u32 *list, occ_u32 count, occ_u32 row,
+                                int *held)
+{
+    const float *t = box->t;
+    for (occ_u32 i = 0; i < count; i++) {
+        OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
+        if (shadow->owner == row) continue;
+        if (!occ_shadow_holds_point(shadow, t[0], t[1], t[2], box->e)) continue;
+        *held = 1;
+        if (occ_box_in_shadow(box, shadow->plane[0], shadow->planes)) return 1;
+    }
+    return 0;
+}
+
 // The object is hidden by a candidate, or by several together. Cheap answers come first: the center
 // and the corners of what is visible mostly show.
 OCC_FN int occ_box_fused(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye, occ_u32 mask,
@@ -218,24 +236,20 @@ OCC_FN int occ_box_fused(const occ_relative_box *box, OCC_GLOBAL const occ_eye *
                          occ_u32 count, occ_u32 row)
 {
     occ_fusion fusion;
-    fusion.candidates = fusion.faces = 0;
-    fusion.held = 0;
-    for (occ_u32 i = 0; i < count; i++) {
-        OCC_GLOBAL const occ_shadow *shadow = &shadows[list[i]];
-        if (shadow->owner != row && occ_fusion_consider(&fusion, box, shadow, list[i])) return 1;
-    }
-    if (fusion.candidates == 0) return 0;
-    if (!fusion.held && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, mask)) return 0;
+    int held = 0;
+    if (count == 0) return 0;
+    if (occ_box_hidden_alone(box, shadows, list, count, row, &held)) return 1;
+    if (!held && occ_point_in_frustum(box->t[0], box->t[1], box->t[2], eye, mask)) return 0;
     if (occ_box_shows_corner(box, eye, mask, shadows, list, count, row)) return 0;
     occ_outline outline;
     if (!occ_outline_set(&outline, box, eye, 0)) return 0;
     fusion.depth = occ_outline_pieces(&outline, box, fusion.stack);
     if (!fusion.depth) return 0;
-    if (occ_fusion_covers(&fusion, eye, mask, shadows, 0)) return 1;
+    if (occ_fusion_covers(&fusion, box, eye, mask, shadows, list, count, row, 0)) return 1;
     if (!fusion.faces) return 0;
     if (!occ_outline_set(&outline, box, eye, 1)) return 0;
     fusion.depth = occ_outline_pieces(&outline, box, fusion.stack);
-    return fusion.depth && occ_fusion_covers(&fusion, eye, mask, shadows, 1);
+    return fusion.depth && occ_fusion_covers(&fusion, box, eye, mask, shadows, list, count, row, 1);
 }
 
 #endif

@@ -131,24 +131,32 @@ OCC_FN void occ_box_corner(const occ_relative_box *box, occ_u32 corner, float *x
     *z = OCC_CORNER(t[2], s0 * a[2], s1 * a[5], s2 * a[8]);
 }
 
-// That corner as a vertex. 0 if floats cannot say where it is.
-OCC_FN int occ_outline_corner(const occ_relative_box *box, occ_u32 corner, occ_vertex *v)
+// That corner as a vertex, the largest of whose x, y, z is in [1/2, 1). 0 if that cannot be.
+OCC_FN int occ_outline_vertex(const occ_relative_box *box, occ_u32 corner, occ_vertex *v)
 {
     occ_box_corner(box, corner, &v->x, &v->y, &v->z);
-    v->w = 1.0f;
-    v->e = box->e;
-    return occ_vertex_scale(v);
+    float most = OCC_FABS(v->x);
+    if (OCC_FABS(v->y) > most) most = OCC_FABS(v->y);
+    if (OCC_FABS(v->z) > most) most = OCC_FABS(v->z);
+    occ_u32 exponent = OCC_BITS_OF(most) >> 23;
+    if (exponent < 24u || exponent > 230u) return 0;
+    v->w = OCC_FLOAT_OF((253u - exponent) << 23);
+    v->x *= v->w;
+    v->y *= v->w;
+    v->z *= v->w;
+    return 1;
 }
 
-// The polygons as pieces. Their number, or 0 if that cannot be.
+// The polygons as pieces. Their number, or 0 if floats cannot say where a corner is.
 OCC_FN occ_u32 occ_outline_pieces(const occ_outline *outline, const occ_relative_box *box,
                                   occ_piece *pieces)
 {
     for (occ_u32 i = 0; i < outline->polygons; i++) {
-        pieces[i].count = outline->corners;
-        pieces[i].cuts = 0;
+        occ_piece *piece = &pieces[i];
+        piece->count = outline->corners;
+        piece->cuts = 0;
         for (occ_u32 k = 0; k < outline->corners; k++)
-            if (!occ_outline_corner(box, outline->corner[i][k], &pieces[i].v[k])) return 0;
+            if (!occ_outline_vertex(box, outline->corner[i][k], &piece->v[k])) return 0;
     }
     return outline->polygons;
 }

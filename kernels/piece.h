@@ -2,30 +2,31 @@
 // Pieces of an object's outline: convex polygons, and how a plane cuts them.
 //
 // Why rounding does no harm. A vertex is a point of the object in homogeneous coordinates, (x, y,
-// z, w) for (x, y, z) / w. Let V be the true vertex, of which v is what floats make. Every vertex
-// has a bound e: |n.(v - V)| <= e for every n whose components are at most 1. When an edge from b
-// to a is cut, the cut is at c = f a + g b with floats f and g that are not negative. The true cut
-// is *defined* to be at C = f A + g B with the same f and g: that is a point of the true edge, and
-// so the true pieces fill the true polygon, whatever f and g are; and |n.(c - C)| is at most f e_a
-// + g e_b and what computing c rounds. A vertex counts as inside a plane if n.v + d w exceeds e and
-// what that sum rounds; then V is inside as well, and a piece all of whose vertices are inside lies
-// in the half-space. docs/accuracy.md derives the constants.
+// z, w) for (x, y, z) / w. Let V be the true vertex, of which v is what floats make. With the error
+// bound E of the object, |n.(v - V)| <= E w + e for every n whose components are at most 1. When an
+// edge from b to a is cut, the cut is at c = r (f a + g b) with floats f, g and r that are not
+// negative. The true cut is *defined* to be at C = r (f A + g B) with the same f, g and r: that is
+// a point of the true edge, and so the true pieces fill the true polygon, whatever they are. Since
+// r is at most 1 / (f + g), e grows by what computing c rounds, the same at every cut. E w is taken
+// off by moving planes inward by E, once for all vertices. A vertex counts as inside a plane so
+// moved if n.v + d w exceeds e and what that sum rounds; then V is inside as well, and a piece all
+// of whose vertices are inside lies in the half-space. docs/accuracy.md derives the constants.
 #ifndef OCC_PIECE_H
 #define OCC_PIECE_H
 
 #include "verdict.h"
 
-#define OCC_PIECE_VERTICES 12u
+#define OCC_PIECE_VERTICES 8u  // what has as many is halved before it is cut
 #define OCC_PIECE_CUTS     16u // one after the other on the way to a piece
 
 // What n.v + d w rounds beside its last term: 14 u.
 #define OCC_VERTEX_SLACK 0x1p-19f
 // What d w rounds, and w did at all cuts: 50 u.
 #define OCC_OFFSET_SLACK 0x1p-18f
-// What a cut rounds for each unit of f and g: 6 u.
+// What a cut rounds: 10 u.
 #define OCC_CUT_SLACK 0x1p-20f
-// A vertex that is less exact than this is of no use.
-#define OCC_VERTEX_WORST 0x1p-12f
+// What E w rounds, and w did at all cuts: 50 u.
+#define OCC_OBJECT_SLACK (1.0f + 0x1p-18f)
 
 #ifdef __OPENCL_C_VERSION__
 #define OCC_GLOBAL         __global
@@ -49,10 +50,9 @@ static inline float OCC_FLOAT_OF(uint32_t bits)
 }
 #endif
 
-// The largest of x, y, z is in [1/2, 1).
+// None of x, y, z is above 1.
 typedef struct occ_vertex {
     float x, y, z, w;
-    float e;
 } occ_vertex;
 
 typedef struct occ_piece {
@@ -61,23 +61,6 @@ typedef struct occ_piece {
     occ_u32 cuts; // along the way to it
 } occ_piece;
 
-// Times a power of two, so that the largest of x, y, z is in [1/2, 1). 0 if that cannot be.
-OCC_FN int occ_vertex_scale(occ_vertex *v)
-{
-    float most = OCC_FABS(v->x);
-    if (OCC_FABS(v->y) > most) most = OCC_FABS(v->y);
-    if (OCC_FABS(v->z) > most) most = OCC_FABS(v->z);
-    occ_u32 exponent = OCC_BITS_OF(most) >> 23;
-    if (exponent < 24u || exponent > 230u) return 0;
-    float scale = OCC_FLOAT_OF((253u - exponent) << 23);
-    v->x *= scale;
-    v->y *= scale;
-    v->z *= scale;
-    v->w *= scale;
-    v->e *= scale;
-    return v->e < OCC_VERTEX_WORST;
-}
-
 // --- cutting -------------------------------------------------------------------------------------
 
 #define OCC_CUT_OUTSIDE 0 // none of it is inside for certain
@@ -85,19 +68,29 @@ OCC_FN int occ_vertex_scale(occ_vertex *v)
 #define OCC_CUT_TWO     2
 #define OCC_CUT_FAILED  3
 
-// A plane, turned round if `turn` is -1.
+// A plane moved inward by the error of the object, and what d w rounds.
 typedef struct occ_cutter {
     float x, y, z, d;
 } occ_cutter;
 
-// The least n.v + d w for a vertex that is inside, given e and d w; and for the sum of three.
-#define OCC_VERTEX_LEAST(e, dw) ((e) + OCC_VERTEX_SLACK + OCC_FABS(dw) * OCC_OFFSET_SLACK)
-#define OCC_MIDDLE_LEAST(e, dw)                                                                    \
-    (2.0f * ((e) + 3.0f * OCC_VERTEX_SLACK + OCC_FABS(dw) * OCC_OFFSET_SLACK))
+// An offset moved inward, given the object's bound E.
+#define OCC_CUTTER_OFFSET(d, object)                                                               \
+    ((d) - ((object)*OCC_OBJECT_SLACK + OCC_FABS(d) * OCC_OFFSET_SLACK))
 
-OCC_FN float occ_vertex_least(const occ_vertex *v, const occ_cutter *n)
+// The least n.v + d w for a vertex that is inside, after so many cuts; where the next cut is made,
+// so that what it makes is inside; and the least for the sum of three.
+#define OCC_VERTEX_LEAST(cuts) (OCC_VERTEX_SLACK + (float)(cuts)*OCC_CUT_SLACK)
+#define OCC_CUT_LEVEL(cuts)    (3.0f * OCC_VERTEX_LEAST(cuts))
+#define OCC_MIDDLE_LEAST(cuts) (6.0f * OCC_VERTEX_LEAST(cuts))
+
+// Of a plane, turned round if `turn` is -1. (A structure that is returned by value would do;
+// oclgrind does not know what LLVM makes of it.)
+OCC_FN void occ_cutter_set(occ_cutter *n, OCC_PLANES_OF plane, float turn, float object)
 {
-    return OCC_VERTEX_LEAST(v->e, n->d * v->w);
+    n->x = turn * plane[0];
+    n->y = turn * plane[1];
+    n->z = turn * plane[2];
+    n->d = OCC_CUTTER_OFFSET(turn * plane[3], object);
 }
 
 OCC_FN float occ_vertex_at(const occ_vertex *v, const occ_cutter *n)
@@ -105,29 +98,41 @@ OCC_FN float occ_vertex_at(const occ_vertex *v, const occ_cutter *n)
     return OCC_PLANE_AT(n->x, n->y, n->z, n->d * v->w, v->x, v->y, v->z);
 }
 
-// Where the edge from b, outside, to a, inside, comes to `level`. 0 if that point is not inside.
-OCC_FN int occ_vertex_between(const occ_vertex *a, float at_a, const occ_vertex *b, float at_b,
-                              float level, const occ_cutter *n, occ_vertex *c)
+// About 1 / x, never more but for what it rounds: the same bits on every device, which a quotient
+// is not. The first guess is off by an eighth at most, and by a 64th what becomes of it.
+#define OCC_RECIPROCAL_GUESS 0x7ef311c7
+#define OCC_RECIPROCAL_MOST  0x1p100f // the largest x for which this is so, by far
+
+OCC_FN float occ_reciprocal(float x)
 {
-    float f = level - at_b, g = at_a - level;
-    c->x = f * a->x + g * b->x;
-    c->y = f * a->y + g * b->y;
-    c->z = f * a->z + g * b->z;
-    c->w = f * a->w + g * b->w;
-    c->e = (f * (a->e + OCC_CUT_SLACK) + g * (b->e + OCC_CUT_SLACK)) * (1.0f + 0x1p-20f);
-    return occ_vertex_scale(c) && occ_vertex_at(c, n) > occ_vertex_least(c, n);
+    float r = OCC_FLOAT_OF((occ_u32)OCC_RECIPROCAL_GUESS - OCC_BITS_OF(x));
+    return r * (2.0f - x * r);
 }
 
-// Vertices i to end, round the polygon, between c and d.
+// Where the edge from b, outside, to a, inside, comes to `level`. 0 if that point is not inside by
+// more than `least`.
+OCC_FN int occ_vertex_between(const occ_vertex *a, float at_a, const occ_vertex *b, float at_b,
+                              float level, float least, const occ_cutter *n, occ_vertex *c)
+{
+    float f = level - at_b, g = at_a - level, sum = f + g, r = occ_reciprocal(sum);
+    c->x = r * (f * a->x + g * b->x);
+    c->y = r * (f * a->y + g * b->y);
+    c->z = r * (f * a->z + g * b->z);
+    c->w = r * (f * a->w + g * b->w);
+    return sum < OCC_RECIPROCAL_MOST && occ_vertex_at(c, n) > least;
+}
+
+// Vertices i to end, round the polygon, then c and d.
 OCC_FN void occ_piece_take(occ_piece *part, const occ_piece *piece, occ_u32 i, occ_u32 end,
                            const occ_vertex *c, const occ_vertex *d)
 {
-    part->count = 0;
-    part->cuts = piece->cuts + 1;
-    part->v[part->count++] = *c;
+    occ_u32 count = 0;
     for (; i != end; i = i + 1 == piece->count ? 0 : i + 1)
-        part->v[part->count++] = piece->v[i];
-    part->v[part->count++] = *d;
+        part->v[count++] = piece->v[i];
+    part->v[count++] = *c;
+    part->v[count++] = *d;
+    part->count = count;
+    part->cuts = piece->cuts + 1;
 }
 
 // Where the vertices go in, and where out again: the first that is inside, and the first that is
@@ -145,38 +150,55 @@ OCC_FN int occ_piece_crossings(const float *at, occ_u32 count, float level, occ_
     return entries == 1;
 }
 
+// All vertices are inside a plane for certain.
+OCC_FN int occ_piece_is_inside(const occ_piece *piece, const occ_cutter *n)
+{
+    float least = OCC_VERTEX_LEAST(piece->cuts);
+    for (occ_u32 i = 0; i < piece->count; i++)
+        if (!(occ_vertex_at(&piece->v[i], n) > least)) return 0;
+    return 1;
+}
+
 // Cuts a piece in two, just inside the plane. `inside` may be the piece itself.
 OCC_FN int occ_piece_cut(const occ_piece *piece, const occ_cutter *n, occ_piece *inside,
                          occ_piece *outside)
 {
-    float at[OCC_PIECE_VERTICES], level = 0.0f;
+    float at[OCC_PIECE_VERTICES], level = OCC_CUT_LEVEL(piece->cuts);
     occ_u32 count = piece->count, in = 0, first = 0, last = 0;
     for (occ_u32 i = 0; i < count; i++) {
         at[i] = occ_vertex_at(&piece->v[i], n);
-        float least = 2.0f * occ_vertex_least(&piece->v[i], n);
-        if (least > level) level = least;
-    }
-    for (occ_u32 i = 0; i < count; i++)
         in += at[i] > level;
+    }
     if (!in) return OCC_CUT_OUTSIDE;
     if (in == count) return OCC_CUT_INSIDE;
-    if (piece->cuts == OCC_PIECE_CUTS || in + 2 > OCC_PIECE_VERTICES ||
-        count - in + 2 > OCC_PIECE_VERTICES ||
+    if (piece->cuts == OCC_PIECE_CUTS || count == OCC_PIECE_VERTICES ||
         !occ_piece_crossings(at, count, level, &first, &last)) {
         return OCC_CUT_FAILED;
     }
     occ_u32 enter = first ? first - 1 : count - 1, leave = last ? last - 1 : count - 1;
+    float least = OCC_VERTEX_LEAST(piece->cuts + 1);
     occ_vertex c, d;
-    if (!occ_vertex_between(&piece->v[first], at[first], &piece->v[enter], at[enter], level, n,
-                            &c) ||
-        !occ_vertex_between(&piece->v[leave], at[leave], &piece->v[last], at[last], level, n, &d)) {
+    if (!occ_vertex_between(&piece->v[first], at[first], &piece->v[enter], at[enter], level, least,
+                            n, &c) ||
+        !occ_vertex_between(&piece->v[leave], at[leave], &piece->v[last], at[last], level, least, n,
+                            &d)) {
         return OCC_CUT_FAILED;
     }
-    occ_piece kept;
-    occ_piece_take(&kept, piece, first, last, &c, &d);
-    occ_piece_take(outside, piece, last, first, &d, &c);
-    *inside = kept;
+    occ_piece whole = *piece;
+    occ_piece_take(outside, &whole, last, first, &c, &d);
+    occ_piece_take(inside, &whole, first, last, &d, &c);
     return OCC_CUT_TWO;
+}
+
+// Vertices from `first` on, which is 0 or half of them, and the one after: half of a piece of
+// eight.
+OCC_FN void occ_piece_halve(occ_piece *part, const occ_piece *piece, occ_u32 first)
+{
+    occ_u32 count = OCC_PIECE_VERTICES / 2 + 1;
+    for (occ_u32 i = 0; i < count; i++)
+        part->v[i] = piece->v[(first + i) % OCC_PIECE_VERTICES];
+    part->count = count;
+    part->cuts = piece->cuts;
 }
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "lanes.h"
 #include "scene_data.h"
-#include "stream.h"
+#include "team.h"
 
 #include <occlude/cull.h>
 
@@ -31,10 +31,10 @@ typedef struct occ_backend_ops {
     occ_result (*upload)(occ_tester *backend, const occ_scene *scene);
     // Starts the test of all ranges.
     occ_result (*test)(occ_tester *backend, const occ_test_job *job);
-    // Runs make(stream, context) and tests the job's ranges as they are offered. NULL if the
+    // Runs make(team, context) and tests the job's ranges as they are offered. NULL if the
     // backend tests only what is complete.
     void (*overlap)(occ_tester *backend, const occ_test_job *job,
-                    void (*make)(occ_stream *stream, void *context), void *context);
+                    void (*make)(occ_team *team, void *context), void *context);
     // Waits for it; the job's verdicts are valid afterwards.
     occ_result (*read)(occ_tester *backend, const occ_test_job *job);
     void (*destroy)(occ_tester *backend);

@@ -5,18 +5,18 @@
 
 #include "team.h"
 
+#define MANY_RANGES 64u // worth waking the others for
+
 typedef struct openmp_backend {
     occ_tester base;
     const occ_lanes *lanes;
-    uint32_t threads;
+    occ_team *team;
 } openmp_backend;
 
-// A backend, the job in hand, and who makes its ranges.
+// A backend and the job in hand.
 typedef struct openmp_frame {
     const openmp_backend *backend;
     const occ_test_job *job;
-    void (*make)(occ_stream *stream, void *context);
-    void *context;
 } openmp_frame;
 
 static occ_result upload(occ_tester *backend, const occ_scene *scene)
@@ -37,32 +37,27 @@ static void test_range(void *context, uint32_t r)
         frame->backend->lanes->test(&job->scene->boxes, range, job->eye, job->screen, &candidates);
 }
 
-static void offer_all(occ_stream *stream, void *context)
-{
-    occ_stream_offer(stream, ((openmp_frame *)context)->job->range_count);
-}
-
 static occ_result test(occ_tester *base, const occ_test_job *job)
 {
     const openmp_backend *backend = (const openmp_backend *)base;
-    openmp_frame frame = {.backend = backend, .job = job};
-    uint32_t threads = job->range_count > 64 ? backend->threads : 1;
-    occ_with_stream(threads, offer_all, test_range, &frame);
+    openmp_frame frame = {backend, job};
+    occ_team *team = job->range_count >= MANY_RANGES ? backend->team : NULL;
+    if (team) occ_team_wake(team);
+    occ_do_parts(team, job->range_count, test_range, &frame);
+    if (team) occ_team_rest(team);
     return OCC_SUCCESS;
 }
 
-static void make_ranges(occ_stream *stream, void *context)
-{
-    openmp_frame *frame = context;
-    frame->make(stream, frame->context);
-}
-
 static void overlap(occ_tester *base, const occ_test_job *job,
-                    void (*make)(occ_stream *stream, void *context), void *context)
+                    void (*make)(occ_team *team, void *context), void *context)
 {
     const openmp_backend *backend = (const openmp_backend *)base;
-    openmp_frame frame = {backend, job, make, context};
-    occ_with_stream(backend->threads, make_ranges, test_range, &frame);
+    openmp_frame frame = {backend, job};
+    occ_team_begin(backend->team, test_range, &frame);
+    occ_team_wake(backend->team);
+    make(backend->team, context);
+    occ_team_settle(backend->team);
+    occ_team_rest(backend->team);
 }
 
 static occ_result read_nothing(occ_tester *backend, const occ_test_job *job)
@@ -72,9 +67,11 @@ static occ_result read_nothing(occ_tester *backend, const occ_test_job *job)
     return OCC_SUCCESS;
 }
 
-static void destroy(occ_tester *backend)
+static void destroy(occ_tester *base)
 {
-    occ_free(backend->hooks, backend, sizeof(openmp_backend));
+    openmp_backend *backend = (openmp_backend *)base;
+    occ_team_destroy(base->hooks, backend->team);
+    occ_free(base->hooks, backend, sizeof *backend);
 }
 
 occ_result occ_backend_openmp_create(occ_hooks *hooks, uint32_t threads, const occ_lanes *lanes,
@@ -84,8 +81,11 @@ occ_result occ_backend_openmp_create(occ_hooks *hooks, uint32_t threads, const o
     openmp_backend *made = occ_alloc(hooks, sizeof *made);
     *backend = NULL;
     if (!made) return OCC_ERROR_OUT_OF_MEMORY;
-    *made = (openmp_backend){
-        .base = {&ops, hooks, 0}, .lanes = lanes, .threads = occ_threads_offered(threads)};
+    *made = (openmp_backend){.base = {&ops, hooks, 0}, .lanes = lanes};
+    if (occ_team_create(hooks, occ_threads_offered(threads), &made->team)) {
+        occ_free(hooks, made, sizeof *made);
+        return OCC_ERROR_OUT_OF_MEMORY;
+    }
     *backend = &made->base;
     return OCC_SUCCESS;
 }

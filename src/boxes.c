@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boxes.h"
 
+#include "box.h"
+
 #include <string.h>
 
 static size_t bytes_of(const occ_boxes *boxes)
@@ -55,6 +57,60 @@ void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box)
     for (uint32_t k = 0; k < 3; k++)
         for (uint32_t j = 0; j < 3; j++)
             occ_boxes_column(boxes, 3 + 3 * k + j)[row] = box->axis[k][j];
+}
+
+// --- many at once --------------------------------------------------------------------------------
+
+// Boxes that come in from outside.
+typedef struct incoming_job {
+    occ_boxes *boxes;
+    const occ_box *from;
+    uint32_t first, count, parts;
+    uint32_t bad[OCC_MOST_PARTS]; // the first in each part, or `count`
+} incoming_job;
+
+static void put_incoming(void *context, uint32_t part)
+{
+    const incoming_job *job = context;
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    for (uint32_t i = occ_part_first(job->count, job->parts, part); i < end; i++)
+        occ_boxes_set(job->boxes, job->first + i, &job->from[i]);
+}
+
+static void check_incoming(void *context, uint32_t part)
+{
+    incoming_job *job = context;
+    uint32_t end = occ_part_first(job->count, job->parts, part + 1);
+    uint32_t i = occ_part_first(job->count, job->parts, part);
+    while (i < end && !occ_box_check(&job->from[i]))
+        i++;
+    job->bad[part] = i < end ? i : job->count;
+}
+
+static void do_incoming(occ_team *team, void (*work)(void *job, uint32_t part), incoming_job *job)
+{
+    job->parts = occ_parts_of(job->count);
+    if (job->parts < 2) team = NULL;
+    if (team) occ_team_wake(team);
+    occ_do_parts(team, job->parts, work, job);
+    if (team) occ_team_rest(team);
+}
+
+void occ_boxes_put(occ_boxes *boxes, uint32_t first, const occ_box *from, uint32_t count,
+                   occ_team *team)
+{
+    incoming_job job = {.boxes = boxes, .from = from, .first = first, .count = count};
+    do_incoming(team, put_incoming, &job);
+}
+
+uint32_t occ_boxes_first_bad(const occ_box *boxes, uint32_t count, occ_team *team)
+{
+    incoming_job job = {.from = boxes, .count = count};
+    do_incoming(team, check_incoming, &job);
+    uint32_t first = count;
+    for (uint32_t part = job.parts; part-- > 0;)
+        if (job.bad[part] < count) first = job.bad[part];
+    return first;
 }
 
 // A few columns, picked into the scratch columns and then copied back.

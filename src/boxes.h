@@ -35,6 +35,14 @@ void occ_boxes_free(occ_hooks *hooks, occ_boxes *boxes);
 occ_box occ_boxes_get(const occ_boxes *boxes, uint32_t row);
 void occ_boxes_set(occ_boxes *boxes, uint32_t row, const occ_box *box);
 
+// Rows [first, first + count), for which there is room, become these boxes. Wakes the team if it is
+// worth while.
+void occ_boxes_put(occ_boxes *boxes, uint32_t first, const occ_box *from, uint32_t count,
+                   occ_team *team);
+
+// Which of these boxes is the first that may not be used (occ_box_check()), or `count`. As above.
+uint32_t occ_boxes_first_bad(const occ_box *boxes, uint32_t count, occ_team *team);
+
 // Row i becomes what row source[i] was, for i < count; `count` becomes the new length. `scratch`
 // has room for `scratch_columns` times `count` floats, 1 to OCC_BOX_COLUMNS.
 void occ_boxes_gather(occ_boxes *boxes, const uint32_t *source, uint32_t count, float *scratch,

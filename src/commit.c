@@ -150,29 +150,17 @@ static void drop_orphans(occ_scene *scene)
     scene->owners_removed = false;
 }
 
-typedef struct commit_job {
-    occ_scene *scene;
-    occ_result result;
-} commit_job;
-
-static void commit_all(occ_team *team, void *context)
+static occ_result commit_all(occ_scene *scene, occ_team *team)
 {
-    commit_job *job = context;
-    occ_scene *scene = job->scene;
     if (scene->owners_removed) drop_orphans(scene); // before the owners' slots are recycled
-    job->result = commit_objects(scene, team);
-    if (job->result) {
-        occ_fail(&scene->hooks, job->result, "no memory to sort the objects");
-        return;
-    }
+    occ_result result = commit_objects(scene, team);
+    if (result) return occ_fail(&scene->hooks, result, "no memory to sort the objects");
     scene->objects_moved = scene->objects_reordered = false;
     scene->revision++; // even if the occluders fail: `changed` speaks of this step from here on
-    job->result = occ_commit_occluders(scene, team);
-    if (job->result) {
-        occ_fail(&scene->hooks, job->result, "no memory to sort the occluders");
-        return;
-    }
+    result = occ_commit_occluders(scene, team);
+    if (result) return occ_fail(&scene->hooks, result, "no memory to sort the occluders");
     scene->occluders_moved = scene->occluders_reordered = false;
+    return OCC_SUCCESS;
 }
 
 occ_result occ_scene_commit(occ_scene *scene)
@@ -180,8 +168,9 @@ occ_result occ_scene_commit(occ_scene *scene)
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     if (occ_scene_is_committed(scene)) return OCC_SUCCESS;
     uint32_t objects = scene->boxes.count, occluders = scene->occluder_rows.count;
-    uint32_t parts = occ_parts_of(objects > occluders ? objects : occluders);
-    commit_job job = {scene, OCC_SUCCESS};
-    occ_with_team(scene->threads < parts ? scene->threads : parts, commit_all, &job);
-    return job.result;
+    if (occ_parts_of(objects > occluders ? objects : occluders) < 2) return commit_all(scene, NULL);
+    occ_team_wake(scene->team);
+    occ_result result = commit_all(scene, scene->team);
+    occ_team_rest(scene->team);
+    return result;
 }

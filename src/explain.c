@@ -58,19 +58,6 @@ static bool find_single(const occ_frame *frame, const box_claim *claim, uint32_t
     return false;
 }
 
-// The planes of a shadow that cut the box, or 0: it cannot hide it together with others.
-static uint32_t planes_that_cut(box_proof *proof, const occ_shadow *shadow)
-{
-    const box_claim *claim = proof->claim;
-    occ_fusion *fusion = &proof->fusion;
-    if (shadow->owner - claim->first < claim->rows) return 0;
-    fusion->candidates = 0;
-    (void)occ_fusion_consider(fusion, &claim->box, shadow, 0);
-    if (!fusion->candidates) return 0;
-    bool face = fusion->planes[0] >> occ_shadow_silhouettes(shadow);
-    return face && !proof->by_faces ? 0 : fusion->planes[0];
-}
-
 // Puts a place among the others, in order. False if there is no room.
 static bool note(culprits *used, uint32_t place)
 {
@@ -85,19 +72,23 @@ static bool note(culprits *used, uint32_t place)
     return true;
 }
 
-// Takes from the piece on top of the stack the first shadow that holds its middle. False if there
-// is none, or it cannot be done.
+// Takes from the piece on top of the stack the first shadow that serves. False if there is none, or
+// it cannot be done.
 static bool take_first(box_proof *proof)
 {
+    const box_claim *claim = proof->claim;
+    occ_fusion *fusion = &proof->fusion;
+    const occ_piece *top = &fusion->stack[fusion->depth - 1];
+    float object = claim->box.e;
     occ_vertex middle;
-    occ_piece_middle(&proof->fusion.stack[proof->fusion.depth - 1], &middle);
+    occ_piece_middle(top, &middle);
     for (uint32_t i = 0; i < proof->count; i++) {
         uint32_t place = proof->list ? proof->list[i] : i;
         const occ_shadow *shadow = shadow_at(proof->frame, place);
-        uint32_t planes = planes_that_cut(proof, shadow);
-        if (!planes || !occ_shadow_holds(shadow, planes, &middle)) continue;
-        if (!note(&proof->used, place)) return false;
-        return occ_fusion_subtract(&proof->fusion, shadow, planes);
+        if (shadow->owner - claim->first < claim->rows) continue;
+        if (!occ_shadow_holds(shadow, &middle, top->cuts, object)) continue;
+        if (!occ_fusion_accepts(fusion, &claim->box, shadow, proof->by_faces)) continue;
+        return note(&proof->used, place) && occ_fusion_subtract(fusion, shadow, object);
     }
     return false;
 }
@@ -115,7 +106,7 @@ static bool covers(box_proof *proof, bool by_faces)
     if (!occ_outline_set(&outline, box, eye, by_faces)) return false;
     fusion->depth = occ_outline_pieces(&outline, box, fusion->stack);
     if (!fusion->depth) return false;
-    occ_fusion_clip(fusion, eye, proof->claim->frustum);
+    occ_fusion_clip(fusion, eye, proof->claim->frustum, box->e);
     for (uint32_t split = 0; fusion->depth; split++)
         if (split == eye->splits || !take_first(proof)) return false;
     return true;

@@ -10,6 +10,8 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
     frame->wide = OCC_ARRAY(occ_wide_shadow);
     frame->sources = OCC_ARRAY(occ_occluder);
     frame->rects = OCC_ARRAY(occ_rect_block);
+    frame->queue.entries = OCC_ARRAY(occ_walk_entry);
+    frame->closing.entries = OCC_ARRAY(occ_walk_entry);
     frame->ranges = OCC_ARRAY(occ_range);
     frame->candidates = OCC_ARRAY(uint32_t);
     frame->verdicts = OCC_ARRAY(occ_verdict);
@@ -17,9 +19,10 @@ void occ_frame_init(occ_frame *frame, occ_hooks *hooks, const occ_lanes *lanes)
 
 void occ_frame_free(occ_frame *frame)
 {
-    occ_array *arrays[] = {&frame->shadows,    &frame->wide,    &frame->sources, &frame->rects,
-                           &frame->heap,       &frame->open,    &frame->closing, &frame->ranges,
-                           &frame->candidates, &frame->verdicts};
+    occ_array *arrays[] = {&frame->shadows,         &frame->wide,          &frame->sources,
+                           &frame->rects,           &frame->queue.entries, &frame->open,
+                           &frame->closing.entries, &frame->ranges,        &frame->candidates,
+                           &frame->verdicts};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (arrays[i]->element) occ_array_free(frame->hooks, arrays[i]);
 }
@@ -27,7 +30,7 @@ void occ_frame_free(occ_frame *frame)
 void *occ_frame_extend(occ_frame *frame, occ_array *array, size_t more)
 {
     bool moves = more > array->capacity - array->count;
-    if (moves) occ_stream_pause(frame->stream);
+    if (moves) occ_team_settle(frame->team);
     void *place = occ_array_extend(frame->hooks, array, more);
     if (moves) occ_frame_set_job(frame);
     return place;

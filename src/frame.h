@@ -6,6 +6,7 @@
 
 #include "backend.h"
 #include "camera.h"
+#include "queue.h"
 
 typedef struct occ_frame {
     occ_hooks *hooks;
@@ -20,11 +21,12 @@ typedef struct occ_frame {
     occ_array wide;    // of occ_wide_shadow: the same
     occ_array sources; // of occ_occluder: whose shadow each is
     occ_array rects;   // of occ_rect_block: where they are on the screen
+    occ_selection selection;
 
     // walk.c
-    occ_array heap;       // of occ_walk_entry
+    occ_queue queue;      // what is still to be looked at
     occ_array open;       // of open_range
-    occ_array closing;    // of occ_walk_entry: the open ranges, by their farthest points
+    occ_queue closing;    // the open ranges, by their farthest points
     uint32_t hint;        // which corner of a node to ask first
     occ_array ranges;     // of occ_range
     occ_array candidates; // of uint32_t: the candidate lists of the ranges
@@ -32,7 +34,7 @@ typedef struct occ_frame {
 
     // Where tests run while the walk goes on. What they read is in `job`, and moves only while they
     // pause.
-    occ_stream *stream;
+    occ_team *team;
     occ_shadow_set set;
     occ_test_job job;
 } occ_frame;
@@ -58,10 +60,10 @@ float occ_frame_farness(const occ_frame *frame, const float t[3], const float h[
 // occluders.c
 void occ_occluders_clear(occ_frame *frame);
 
-// Whether an occluder, relative to the eye, looks large enough to be of use.
-bool occ_occluder_is_large(const occ_frame *frame, const occ_relative_box *box);
+// Fills in `selection`: which occluders look large enough to be of use.
+void occ_occluders_prepare(occ_frame *frame);
 
-// Whether one with this reach may be, at this distance at least.
+// Whether one with this reach may, at this distance at least.
 bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key);
 
 // Makes the shadow of the occluder in a row and adds it to the set, if it has one.

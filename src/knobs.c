@@ -3,7 +3,7 @@
 
 // What a knob that is left 0 stands for.
 static const occ_cull_desc presets[] = {
-    [OCC_PRESET_BALANCED] = {.min_area = 2e-4f,
+    [OCC_PRESET_BALANCED] = {.min_area = 3e-4f,
                              .max_occluders = 1024,
                              .grain = 64,
                              .max_splits = 48},

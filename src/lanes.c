@@ -4,7 +4,7 @@
 // has; intrinsics only where a comparison or a permutation gains from them (wide.h).
 #include "wide.h"
 
-#include "lanes_objects.h"
+#include "lanes_select.h"
 #include "lanes_walk.h"
 
 #ifndef OCC_LANES_NAME
@@ -17,4 +17,5 @@
 #define OCC_LANES_TABLE  OCC_PASTE(occ_lanes_, OCC_LANES_NAME)
 
 extern const occ_lanes OCC_LANES_TABLE;
-const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), project, hide, gather, cut, test};
+const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), project, hide, gather,
+                                   select_occluders,         cut,     test};

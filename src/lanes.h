@@ -22,8 +22,9 @@
 typedef struct occ_wide_shadow {
     float plane[4][OCC_PLANE_LANES];
     float last[4];
-    uint32_t owner; // as in occ_shadow
-    uint32_t pad[11];
+    uint32_t owner;  // as in occ_shadow
+    uint32_t planes; // bit p: lane p has a plane; bit OCC_PLANE_LANES speaks of `last`
+    uint32_t pad[10];
 } occ_wide_shadow;
 
 void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow);
@@ -59,6 +60,16 @@ typedef struct occ_candidates {
     uint32_t count;
 } occ_candidates;
 
+// Which occluders are worth looking at: those whose projected area over their squared distance, or
+// over the area of an orthographic view, is `least` or more.
+typedef struct occ_selection {
+    const occ_eye *eye;
+    float toward[3]; // orthographic: the direction to the viewer
+    float scale;     // orthographic: 1 over the edge of a square as large as the view
+    float least;
+    bool orthographic;
+} occ_selection;
+
 // A box that the walk asks about.
 typedef struct occ_question {
     const occ_relative_box *box;
@@ -85,6 +96,11 @@ typedef struct occ_lanes {
     // of them hides it.
     bool (*gather)(const occ_question *question, const occ_shadow_set *set, uint32_t *list,
                    uint32_t *count);
+
+    // Of at most OCC_SHADOW_LANES occluders: which of them are worth looking at and not outside of
+    // the frustum's planes, and how near each is.
+    uint32_t (*select)(const occ_box *boxes, uint32_t count, const occ_selection *choice,
+                       uint32_t planes, float *key);
 
     // Decides siblings against the frustum.
     void (*cut)(occ_siblings *siblings, const occ_eye *eye);

@@ -39,6 +39,7 @@ void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow)
     uint32_t silhouettes = occ_shadow_silhouettes(shadow);
     for (uint32_t p = 0; p < shadow->planes; p++) {
         uint32_t lane = p < silhouettes ? p : OCC_FACE_LANE + p - silhouettes;
+        wide->planes |= 1u << lane;
         for (uint32_t j = 0; j < 4; j++)
             *(lane < OCC_PLANE_LANES ? &wide->plane[j][lane] : &wide->last[j]) =
                 shadow->plane[p][j];

@@ -16,6 +16,16 @@ typedef struct object_lanes {
     fwide e;
 } object_lanes;
 
+// Their error bounds.
+static inline void set_bounds(object_lanes *o, const occ_eye *eye)
+{
+    fwide size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
+    size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
+    size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
+    size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
+    o->e = OCC_BOUND(size, eye->slack_floor);
+}
+
 static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_t row,
                                 const occ_eye *eye)
 {
@@ -25,11 +35,7 @@ static inline void load_objects(object_lanes *o, const occ_boxes *boxes, uint32_
     }
     for (uint32_t k = 0; k < 9; k++)
         o->a[k] = load_wide(occ_boxes_column(boxes, 3 + k) + row);
-    fwide size = OCC_NORM1(o->t[0], o->t[1], o->t[2]);
-    size += OCC_NORM1(o->a[0], o->a[1], o->a[2]);
-    size += OCC_NORM1(o->a[3], o->a[4], o->a[5]);
-    size += OCC_NORM1(o->a[6], o->a[7], o->a[8]);
-    o->e = OCC_BOUND(size, eye->slack_floor);
+    set_bounds(o, eye);
 }
 
 static inline fwide reach_of_objects(const object_lanes *o, const float n[4])
@@ -110,11 +116,10 @@ static inline bool candidate_holds(const occ_candidates *candidates, uint32_t c,
 static inline bool corner_is_held(const rect_list *list, const occ_candidates *candidates,
                                   uint32_t row, const occ_projection *seen, uint32_t k, float e)
 {
-    for (uint32_t i = 0; i < list->count; i += OCC_SHADOW_LANES) {
-        rect_lanes rects = rects_of_list(list, i);
-        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
-        for (near = present(near, list->count - i); near; near &= near - 1u) {
-            uint32_t c = i + (uint32_t)__builtin_ctz(near);
+    for (uint32_t i = 0; i < list->count; i += NEAR_BITS) {
+        for (uint64_t near = near_in_list(list, i, seen->u[k], seen->v[k]); near;
+             near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctzll(near);
             if (candidate_holds(candidates, c, row, seen, k, e)) return true;
         }
     }
@@ -133,28 +138,88 @@ typedef struct range_fusion {
     uint32_t hint; // the corner that showed last
 } range_fusion;
 
-// As occ_box_fused(), where a candidate holds the center or the center is not in the picture.
+// An object in question, and what is left of it.
+typedef struct object_fusion {
+    const range_fusion *common;
+    const occ_relative_box *box;
+    uint32_t row;
+    bool by_faces;
+    fusion_lanes left;
+} object_fusion;
+
+// Whether candidate c may be taken from a piece, as in occ_fusion_find().
+static inline bool serves(object_fusion *object, uint32_t c, const occ_vertex *middle,
+                          uint32_t cuts)
+{
+    const occ_candidates *candidates = object->common->candidates;
+    const occ_wide_shadow *shadow = &candidates->set->wide[candidates->list[c]];
+    if (shadow->owner == object->row || !holds(shadow, middle, cuts, object->box->e)) return false;
+    if (object->by_faces || is_behind(object->box, shadow)) return true;
+    object->left.faces = true;
+    return false;
+}
+
+// As occ_fusion_find().
+static inline uint32_t find(object_fusion *object)
+{
+    const range_fusion *common = object->common;
+    const rect_list *list = &common->list;
+    fusion_lanes *left = &object->left;
+    const piece_lanes *top = &left->stack[left->depth - 1];
+    occ_vertex middle = middle_of(top);
+    float u, v;
+    project_vertex(common->screen, &middle, &u, &v);
+    for (uint32_t i = 0; i < list->count; i += NEAR_BITS) {
+        for (uint64_t near = near_in_list(list, i, u, v); near; near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctzll(near);
+            if (serves(object, c, &middle, top->cuts)) return c;
+        }
+    }
+    uint32_t c = list->count;
+    while (c < common->candidates->count && !serves(object, c, &middle, top->cuts))
+        c++;
+    return c;
+}
+
+// As occ_fusion_covers().
+static bool covers(object_fusion *object, bool by_faces)
+{
+    const range_fusion *common = object->common;
+    const occ_candidates *candidates = common->candidates;
+    fusion_lanes *left = &object->left;
+    object->by_faces = by_faces;
+    left->faces = false;
+    if (!see_outline(left, object->box, common->eye, by_faces)) return false;
+    clip(left, common->eye, common->range->frustum, object->box->e);
+    for (uint32_t split = 0; left->depth; split++) {
+        uint32_t c = find(object);
+        if (c == candidates->count || split == common->eye->splits ||
+            !subtract(left, &candidates->set->wide[candidates->list[c]], object->box->e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// As occ_box_fused(), where a candidate holds the center or the center is not in the picture, and
+// none hides the object alone.
 static bool fuse(range_fusion *common, const occ_relative_box *box, uint32_t row)
 {
-    const occ_candidates *candidates = common->candidates;
     occ_projection seen;
-    fusion_lanes fusion;
+    object_fusion object;
     project_corners(common->screen, box, &seen);
     uint32_t shown = corners_in_frustum(&seen, common->eye, common->range->frustum);
     for (uint32_t i = 0; i < 8; i++) {
         uint32_t k = (i + common->hint) & 7u;
         if (!(shown >> k & 1u)) continue;
-        if (corner_is_held(&common->list, candidates, row, &seen, k, box->e)) continue;
+        if (corner_is_held(&common->list, common->candidates, row, &seen, k, box->e)) continue;
         common->hint = k;
         return false;
     }
-    start_fusion(&fusion);
-    for (uint32_t i = 0; i < candidates->count; i++) {
-        uint32_t s = candidates->list[i];
-        if (candidates->set->wide[s].owner == row) continue;
-        if (consider(&fusion, box, &candidates->set->wide[s])) return true;
-    }
-    return fusion.candidates && fuse_candidates(&fusion, box, common->eye, common->range->frustum);
+    object.common = common;
+    object.box = box;
+    object.row = row;
+    return covers(&object, false) || (object.left.faces && covers(&object, true));
 }
 
 // Objects of `open` that several candidates hide together.
@@ -171,20 +236,36 @@ static uint32_t fuse_objects(range_fusion *common, const occ_boxes *boxes, uint3
     return hidden;
 }
 
-// Where the centers of objects are on the screen: bounds of u and v, infinite if one is not clearly
-// in front of the eye.
-static inline void centers_on_screen(const object_lanes *o, const occ_screen *screen,
-                                     uint32_t objects, occ_projection *seen)
+// Where the centers of objects are on the screen: NaN where one is not clearly in front of the eye.
+typedef struct center_lanes {
+    fwide at[2];
+    occ_projection bounds; // infinite if any is NaN
+} center_lanes;
+
+static inline void centers_on_screen(center_lanes *centers, const object_lanes *o,
+                                     const occ_screen *screen, uint32_t objects)
 {
     const float(*row)[3] = screen->row;
     const fwide *t = o->t, least = screen->least * OCC_NORM1(t[0], t[1], t[2]);
     fwide w = OCC_PLANE_AT(row[2][0], row[2][1], row[2][2], screen->w, t[0], t[1], t[2]);
+    const iwide is_clear = w > least;
     bool clear = (above_wide(w, least) & objects) == objects;
     for (uint32_t r = 0; r < 2; r++) {
         fwide at = (row[r][0] * t[0] + row[r][1] * t[1] + row[r][2] * t[2]) / w;
-        seen->min[r] = clear ? -largest_of_wide(-at, objects) : -INFINITY;
-        seen->max[r] = clear ? largest_of_wide(at, objects) : INFINITY;
+        centers->at[r] = (fwide)((iwide)at | ~is_clear); // all bits set is a NaN
+        centers->bounds.min[r] = clear ? -largest_of_wide(-at, objects) : -INFINITY;
+        centers->bounds.max[r] = clear ? largest_of_wide(at, objects) : INFINITY;
     }
+}
+
+// The objects whose center may be in the shadow of candidate c.
+static inline uint32_t centers_near(const center_lanes *centers, const rect_list *list, uint32_t c)
+{
+    const fwide least[4] = {splat_wide(list->left[c]), centers->at[0], splat_wide(list->low[c]),
+                            centers->at[1]};
+    const fwide most[4] = {centers->at[0], splat_wide(list->right[c]), centers->at[1],
+                           splat_wide(list->high[c])};
+    return none_above_wide(least, most);
 }
 
 // What is known of as many objects as there are lanes.
@@ -193,12 +274,14 @@ typedef struct known_lanes {
     uint32_t held; // one holds its center
 } known_lanes;
 
+// Tests candidate c on those objects of `near` that are open.
 static inline void test_candidate(known_lanes *known, const object_lanes *lanes, uint32_t row,
-                                  const occ_candidates *candidates, uint32_t c)
+                                  const occ_candidates *candidates, uint32_t c, uint32_t near)
 {
     const occ_shadow *shadow = &candidates->set->shadows[candidates->list[c]];
-    uint32_t centers = centers_inside(lanes, shadow, known->open), own = shadow->owner - row;
-    if (own < OCC_WIDTH) centers &= ~(1u << own);
+    uint32_t own = shadow->owner - row;
+    if (own < OCC_WIDTH) near &= ~(1u << own);
+    uint32_t centers = centers_inside(lanes, shadow, near & known->open);
     if (!centers) return;
     known->held |= centers;
     known->open &= ~inside_shadow(lanes, shadow, centers);
@@ -208,16 +291,19 @@ static inline void test_candidates(known_lanes *known, const object_lanes *lanes
                                    const range_fusion *common)
 {
     const occ_candidates *candidates = common->candidates;
-    occ_projection seen;
-    centers_on_screen(lanes, common->screen, known->open, &seen);
+    center_lanes centers;
+    centers_on_screen(&centers, lanes, common->screen, known->open);
     for (uint32_t i = 0; i < common->list.count && known->open; i += OCC_SHADOW_LANES) {
         rect_lanes rects = rects_of_list(&common->list, i);
-        uint32_t near = near_box(&rects, &seen);
-        for (near = present(near, common->list.count - i); near; near &= near - 1u)
-            test_candidate(known, lanes, row, candidates, i + (uint32_t)__builtin_ctz(near));
+        uint32_t near = near_box(&rects, &centers.bounds);
+        for (near = present(near, common->list.count - i); near; near &= near - 1u) {
+            uint32_t c = i + (uint32_t)__builtin_ctz(near);
+            uint32_t at = centers_near(&centers, &common->list, c) & known->open;
+            if (at) test_candidate(known, lanes, row, candidates, c, at);
+        }
     }
     for (uint32_t c = common->list.count; c < candidates->count && known->open; c++)
-        test_candidate(known, lanes, row, candidates, c);
+        test_candidate(known, lanes, row, candidates, c, ALL_WIDE);
 }
 
 static occ_verdict test(const occ_boxes *boxes, const occ_range *range, const occ_eye *eye,

@@ -22,7 +22,7 @@ static inline void project_vertex(const occ_screen *screen, const occ_vertex *p,
 
 static inline void project_center(const occ_screen *screen, const float p[3], occ_projection *seen)
 {
-    occ_vertex center = {p[0], p[1], p[2], 1.0f, 0.0f};
+    occ_vertex center = {p[0], p[1], p[2], 1.0f};
     project_vertex(screen, &center, &seen->u[8], &seen->v[8]);
 }
 
@@ -124,6 +124,34 @@ typedef struct rect_list {
 static inline rect_lanes rects_of_list(const rect_list *list, uint32_t i)
 {
     return (rect_lanes){list->left + i, list->right + i, list->low + i, list->high + i};
+}
+
+// Points are looked up among as many rectangles as a word has bits, before any of what is found is
+// asked: there is less to branch on.
+#define NEAR_BITS 64u
+
+// Those of the list from `first` on, up to NEAR_BITS, that may hold a point there.
+static inline uint64_t near_in_list(const rect_list *list, uint32_t first, float u, float v)
+{
+    uint32_t left = list->count - first, most = left < NEAR_BITS ? left : NEAR_BITS;
+    uint64_t near = 0;
+    for (uint32_t i = 0; i < most; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_list(list, first + i);
+        near |= (uint64_t)present(near_point(&rects, u, v), left - i) << i;
+    }
+    return near;
+}
+
+// The same of occluders in blocks.
+static inline uint64_t near_in_blocks(const occ_shadow_set *set, uint32_t first, float u, float v)
+{
+    uint32_t left = set->count - first, most = left < NEAR_BITS ? left : NEAR_BITS;
+    uint64_t near = 0;
+    for (uint32_t i = 0; i < most; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_block(&set->rects[(first + i) / OCC_SHADOW_LANES]);
+        near |= (uint64_t)present(near_point(&rects, u, v), left - i) << i;
+    }
+    return near;
 }
 
 // Appends the lanes of a block that `lanes` names; there is room for a block.

@@ -10,7 +10,8 @@
 
 static inline contact meet_asked(const occ_question *question, const occ_wide_shadow *shadow)
 {
-    return question->upright ? meet_upright(question->box, shadow) : meet(question->box, shadow);
+    return question->upright ? meet(question->box, shadow, true)
+                             : meet(question->box, shadow, false);
 }
 
 static inline bool is_own(const occ_question *question, const occ_shadow_set *set, uint32_t i)
@@ -22,11 +23,10 @@ static inline bool is_own(const occ_question *question, const occ_shadow_set *se
 static inline bool ask_center(const occ_question *question, const occ_shadow_set *set, bool *held)
 {
     const float *t = question->box->t;
-    for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
-        rect_lanes rects = rects_of_block(&set->rects[b]);
-        uint32_t near = near_point(&rects, question->seen->u[8], question->seen->v[8]);
-        for (near = present(near, set->count - first); near; near &= near - 1u) {
-            uint32_t i = first + (uint32_t)__builtin_ctz(near);
+    for (uint32_t first = 0; first < set->count; first += NEAR_BITS) {
+        uint64_t near = near_in_blocks(set, first, question->seen->u[8], question->seen->v[8]);
+        for (; near; near &= near - 1u) {
+            uint32_t i = first + (uint32_t)__builtin_ctzll(near);
             if (!holds_point(&set->wide[i], t[0], t[1], t[2], question->box->e)) continue;
             if (is_own(question, set, i)) continue;
             *held = true;
@@ -41,12 +41,8 @@ static inline bool ask_center(const occ_question *question, const occ_shadow_set
 // which can only show more.
 typedef struct near_list {
     rect_list rects;
-    uint16_t planes[LISTED_MOST]; // what cuts the box, or NEAR_*
     uint32_t index[LISTED_MOST + OCC_SHADOW_LANES];
 } near_list;
-
-#define NEAR_UNKNOWN 0xffffu // not asked yet
-#define NEAR_USELESS 0xfffeu // apart, own, or the box is not behind its faces
 
 static inline void list_near(near_list *list, const occ_question *question,
                              const occ_shadow_set *set)
@@ -59,7 +55,6 @@ static inline void list_near(near_list *list, const occ_question *question,
         compress_indices(list->index + list->rects.count, first, near);
         append_rects(&list->rects, &set->rects[b], near);
     }
-    memset(list->planes, 0xff, list->rects.count * sizeof *list->planes);
 }
 
 static inline bool holds_corner(const occ_question *question, const occ_shadow_set *set, uint32_t i,
@@ -75,11 +70,10 @@ static inline bool ask_corner(const occ_question *question, const occ_shadow_set
                               const near_list *list, uint32_t k)
 {
     const occ_projection *seen = question->seen;
-    for (uint32_t first = 0; first < list->rects.count; first += OCC_SHADOW_LANES) {
-        rect_lanes rects = rects_of_list(&list->rects, first);
-        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
-        for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
-            uint32_t i = list->index[first + (uint32_t)__builtin_ctz(near)];
+    for (uint32_t first = 0; first < list->rects.count; first += NEAR_BITS) {
+        uint64_t near = near_in_list(&list->rects, first, seen->u[k], seen->v[k]);
+        for (; near; near &= near - 1u) {
+            uint32_t i = list->index[first + (uint32_t)__builtin_ctzll(near)];
             if (holds_corner(question, set, i, k)) return true;
         }
     }
@@ -91,11 +85,10 @@ static inline bool ask_first_corner(const occ_question *question, const occ_shad
                                     uint32_t k)
 {
     const occ_projection *seen = question->seen;
-    for (uint32_t first = 0, b = 0; first < set->count; first += OCC_SHADOW_LANES, b++) {
-        rect_lanes rects = rects_of_block(&set->rects[b]);
-        uint32_t near = near_point(&rects, seen->u[k], seen->v[k]);
-        for (near = present(near, set->count - first); near; near &= near - 1u) {
-            uint32_t i = first + (uint32_t)__builtin_ctz(near);
+    for (uint32_t first = 0; first < set->count; first += NEAR_BITS) {
+        uint64_t near = near_in_blocks(set, first, seen->u[k], seen->v[k]);
+        for (; near; near &= near - 1u) {
+            uint32_t i = first + (uint32_t)__builtin_ctzll(near);
             if (holds_corner(question, set, i, k)) return true;
         }
     }
@@ -118,51 +111,39 @@ static inline bool corner_shows(const occ_question *question, const occ_shadow_s
     return false;
 }
 
-// What is known of entry n, which is found out when it is first asked for.
-static inline bool is_candidate(near_list *list, uint32_t n, const occ_question *question,
-                                const occ_shadow_set *set)
-{
-    if (list->planes[n] == NEAR_UNKNOWN) {
-        uint32_t i = list->index[n];
-        contact met = meet_asked(question, &set->wide[i]);
-        bool useless = met.apart || met.cutting >> OCC_FACE_LANE || is_own(question, set, i);
-        list->planes[n] = (uint16_t)(useless ? NEAR_USELESS : met.cutting);
-    }
-    return list->planes[n] != NEAR_USELESS;
-}
-
-// The first entry that holds the middle of a piece, or their number.
-static inline uint32_t find_near(near_list *list, const occ_vertex *middle,
+// The first entry that may be taken from a piece, or their number: as occ_fusion_find().
+static inline uint32_t find_near(const near_list *list, const piece_lanes *piece,
                                  const occ_question *question, const occ_shadow_set *set,
                                  const occ_screen *screen)
 {
+    occ_vertex middle = middle_of(piece);
     float u, v;
-    project_vertex(screen, middle, &u, &v);
-    for (uint32_t first = 0; first < list->rects.count; first += OCC_SHADOW_LANES) {
-        rect_lanes rects = rects_of_list(&list->rects, first);
-        uint32_t near = near_point(&rects, u, v);
-        for (near = present(near, list->rects.count - first); near; near &= near - 1u) {
-            uint32_t n = first + (uint32_t)__builtin_ctz(near);
-            if (!is_candidate(list, n, question, set)) continue;
-            if (holds(&set->wide[list->index[n]], list->planes[n], middle)) return n;
+    project_vertex(screen, &middle, &u, &v);
+    for (uint32_t first = 0; first < list->rects.count; first += NEAR_BITS) {
+        uint64_t near = near_in_list(&list->rects, first, u, v);
+        for (; near; near &= near - 1u) {
+            uint32_t n = first + (uint32_t)__builtin_ctzll(near), i = list->index[n];
+            if (holds(&set->wide[i], &middle, piece->cuts, question->box->e) &&
+                !is_own(question, set, i) && is_behind(question->box, &set->wide[i]))
+                return n;
         }
     }
     return list->rects.count;
 }
 
-// As covers(), with what of the list is needed.
-static inline bool covers_near(near_list *list, const occ_question *question,
+// As occ_fusion_covers().
+static inline bool covers_near(const near_list *list, const occ_question *question,
                                const occ_shadow_set *set, const occ_eye *eye,
                                const occ_screen *screen)
 {
     fusion_lanes fusion;
     if (!see_outline(&fusion, question->box, eye, false)) return false;
-    clip(&fusion, eye, question->frustum);
+    clip(&fusion, eye, question->frustum, question->box->e);
     for (uint32_t split = 0; fusion.depth; split++) {
-        occ_vertex middle = middle_of(&fusion.stack[fusion.depth - 1]);
-        uint32_t n = find_near(list, &middle, question, set, screen);
+        const piece_lanes *top = &fusion.stack[fusion.depth - 1];
+        uint32_t n = find_near(list, top, question, set, screen);
         if (n == list->rects.count || split == eye->splits ||
-            !subtract(&fusion, &set->wide[list->index[n]], list->planes[n])) {
+            !subtract(&fusion, &set->wide[list->index[n]], question->box->e)) {
             return false;
         }
     }

@@ -12,26 +12,21 @@ void occ_occluders_clear(occ_frame *frame)
     frame->shadows.count = frame->wide.count = frame->sources.count = frame->rects.count = 0;
 }
 
-// Its projected area over its squared distance, or over the area of an orthographic view, reaches
-// the knob.
-bool occ_occluder_is_large(const occ_frame *frame, const occ_relative_box *box)
+void occ_occluders_prepare(occ_frame *frame)
 {
     const occ_camera *camera = &frame->camera;
-    double c[3], a[3][3], shown = 0.0;
-    for (int j = 0; j < 3; j++) {
-        c[j] = camera->orthographic ? camera->toward[j] : (double)box->t[j];
-        for (int k = 0; k < 3; k++)
-            a[k][j] = (double)box->a[3 * k + j];
+    occ_selection *choice = &frame->selection;
+    *choice = (occ_selection){.eye = &camera->constants, .orthographic = camera->orthographic};
+    choice->least = frame->knobs.min_area;
+    choice->scale = 1.0f;
+    for (int j = 0; j < 3; j++)
+        choice->toward[j] = (float)camera->toward[j];
+    if (!camera->orthographic) return;
+    if (camera->view_area > 0.0) {
+        choice->scale = (float)(1.0 / sqrt(camera->view_area));
+    } else {
+        choice->least = 0.0f;
     }
-    for (int k = 0; k < 3; k++) {
-        double n[3];
-        occ_cross(a[k], a[(k + 1) % 3], n);
-        shown += 4.0 * fabs(occ_dot(n, c));
-    }
-    double squared = occ_dot(c, c), length = sqrt(squared);
-    double least = (double)frame->knobs.min_area;
-    if (camera->orthographic) return shown >= least * camera->view_area * length;
-    return shown >= least * squared * length;
 }
 
 bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)

@@ -32,6 +32,8 @@ static const result_text texts[] = {
     {OCC_ERROR_LIMIT, "OCC_ERROR_LIMIT", "there are more items than a 32-bit index can name"},
     {OCC_ERROR_CORRUPT, "OCC_ERROR_CORRUPT", "an invariant of the scene is broken"},
     {OCC_ERROR_NO_RESULT, "OCC_ERROR_NO_RESULT", "nothing was culled with this view yet"},
+    {OCC_ERROR_NOT_INSIDE, "OCC_ERROR_NOT_INSIDE", "the box is not where it was claimed to be"},
+    {OCC_ERROR_CANCELLED, "OCC_ERROR_CANCELLED", "the caller stopped the work"},
 };
 
 static const result_text *find(occ_result result)

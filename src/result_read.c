@@ -31,9 +31,9 @@ occ_result occ_view_check(const occ_view *view, size_t *count)
 occ_result occ_view_read_mask(const occ_view *view, uint32_t *words, size_t capacity, size_t *count)
 {
     occ_result result = occ_view_check(view, count);
-    if (!result) result = occ_view_fits(view, words, capacity, view->mask.count, count);
-    if (!result && view->mask.count) {
-        memcpy(words, view->mask.data, (size_t)view->mask.count * sizeof *words);
+    if (!result) result = occ_view_fits(view, words, capacity, view->mask.words.count, count);
+    if (!result && view->mask.words.count) {
+        memcpy(words, view->mask.words.data, (size_t)view->mask.words.count * sizeof *words);
     }
     return result;
 }
@@ -43,12 +43,8 @@ occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots, size_t c
 {
     occ_result result = occ_view_check(view, count);
     if (!result) result = occ_view_fits(view, slots, capacity, view->frame.stats.visible, count);
-    if (result) return result;
-    const uint32_t *mask = view->mask.data;
-    for (uint32_t w = 0; w < view->mask.count; w++)
-        for (uint32_t bits = mask[w]; bits; bits &= bits - 1)
-            *slots++ = 32 * w + (uint32_t)__builtin_ctz(bits);
-    return OCC_SUCCESS;
+    if (!result && slots) occ_mask_list(&view->mask, slots);
+    return result;
 }
 
 occ_result occ_view_read_occluders(const occ_view *view, occ_occluder *occluders, size_t capacity,
@@ -67,8 +63,8 @@ occ_result occ_view_read_occluders(const occ_view *view, occ_occluder *occluders
 bool occ_view_is_visible(const occ_view *view, occ_object object)
 {
     uint32_t slot = object.index - 1u;
-    if (!view || !view->has_result || slot / 32 >= view->mask.count) return false;
-    return ((const uint32_t *)view->mask.data)[slot / 32] >> slot % 32 & 1u;
+    if (!view || !view->has_result || slot / 32 >= view->mask.words.count) return false;
+    return ((const uint32_t *)view->mask.words.data)[slot / 32] >> slot % 32 & 1u;
 }
 
 occ_result occ_view_get_stats(const occ_view *view, occ_view_stats *stats)

@@ -82,7 +82,6 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
     if (!made) return occ_fail(&hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for a scene");
     *made = (occ_scene){.hooks = hooks,
                         .id = atomic_fetch_add(&scenes_made, 1) + 1,
-                        .threads = occ_threads_offered(desc->threads),
                         .objects = OCC_SLOTS,
                         .slot_of = OCC_ARRAY(uint32_t),
                         .occluders = OCC_SLOTS,
@@ -92,7 +91,8 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
     occ_octree empty = {.nodes = OCC_ARRAY(occ_node)};
     empty.leaf_items = desc->leaf_objects ? desc->leaf_objects : DEFAULT_LEAF_OBJECTS;
     made->object_tree = made->occluder_tree = empty;
-    result = reserve_objects(made, desc->object_count);
+    result = occ_team_create(&made->hooks, occ_threads_offered(desc->threads), &made->team);
+    if (!result) result = reserve_objects(made, desc->object_count);
     if (!result) result = reserve_occluders(made, desc->occluder_count);
     if (result) {
         occ_fail(&hooks, result, "no memory for %u objects and %u occluders", desc->object_count,
@@ -118,6 +118,7 @@ void occ_scene_destroy(occ_scene *scene)
     occ_array_free(&hooks, &scene->attached);
     occ_array_free(&hooks, &scene->reach);
     occ_array_free(&hooks, &scene->changed);
+    occ_team_destroy(&hooks, scene->team);
     occ_free(&hooks, scene, sizeof *scene);
 }
 
@@ -134,14 +135,11 @@ static occ_result check_boxes(const occ_scene *scene, const occ_box *boxes, size
     if (count > MOST_ITEMS) {
         return occ_fail(&scene->hooks, OCC_ERROR_LIMIT, "%zu %s", count, what);
     }
-    for (size_t i = 0; i < count; i++) {
-        occ_result result = occ_box_check(&boxes[i]);
-        if (result) {
-            return occ_fail(&scene->hooks, result, "box %zu of %zu %s: %s", i, count, what,
-                            occ_result_message(result));
-        }
-    }
-    return OCC_SUCCESS;
+    uint32_t bad = occ_boxes_first_bad(boxes, (uint32_t)count, scene->team);
+    if (bad == count) return OCC_SUCCESS;
+    occ_result result = occ_box_check(&boxes[bad]);
+    return occ_fail(&scene->hooks, result, "box %u of %zu %s: %s", bad, count, what,
+                    occ_result_message(result));
 }
 
 static occ_result stale(const occ_scene *scene, const char *what, uint32_t index,
@@ -158,10 +156,10 @@ occ_result occ_scene_add_many(occ_scene *scene, const occ_box *boxes, size_t cou
     if (result || !count) return result;
     result = reserve_objects(scene, count);
     if (result) return occ_fail(&scene->hooks, result, "no room for %zu more objects", count);
+    occ_boxes_put(&scene->boxes, scene->boxes.count, boxes, (uint32_t)count, scene->team);
     for (size_t i = 0; i < count; i++) {
         uint32_t row = scene->boxes.count++;
         uint32_t slot = occ_slots_take(&scene->objects, row);
-        occ_boxes_set(&scene->boxes, row, &boxes[i]);
         ((uint32_t *)scene->slot_of.data)[row] = slot;
         if (objects) objects[i] = (occ_object){slot + 1, scene->objects.generation[slot]};
     }

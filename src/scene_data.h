@@ -29,7 +29,7 @@ typedef struct occ_attached {
 struct occ_scene {
     occ_hooks hooks;
     uint64_t id;       // no other scene of this process has it
-    uint32_t threads;  // of a commit
+    occ_team *team;    // of commits
     uint64_t revision; // counts the commits of the objects: `changed` leads from the one before
 
     occ_slots objects;

@@ -251,15 +251,19 @@ static bool is_beyond(const solid *s, const double *cutter)
     return occ_dot(cutter, s->center) + cutter[3] - reach > size * 1e-9;
 }
 
-// The near plane cuts away what lies between it and the eye. The occluder is whole if all of that
-// is in front of one of its visible faces, or if the occluder lies beyond the near plane.
+// The near plane cuts away what lies between it and the eye. The occluder is whole if it lies
+// beyond the near plane, which most do, or if all that is cut away is in front of one of its
+// visible faces.
 static bool survives_near(const solid *s, const occ_camera *camera, const face seen[3])
 {
     if (camera->cutter == OCC_NO_PLANE) return true;
+    if (is_beyond(s, camera->plane[camera->cutter]) &&
+        (!camera->far_cuts_too || is_beyond(s, camera->plane[OCC_NEAR_PLANE + 1]))) {
+        return true;
+    }
     for (int k = 0; k < 3 && camera->has_corners; k++)
         if (seen[k].sign && cut_is_in_front(s, camera, &seen[k], k)) return true;
-    return is_beyond(s, camera->plane[camera->cutter]) &&
-           (!camera->far_cuts_too || is_beyond(s, camera->plane[OCC_NEAR_PLANE + 1]));
+    return false;
 }
 
 bool occ_shadow_init(occ_shadow *shadow, const occ_camera *camera, const occ_box *box,

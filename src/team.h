@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work in parts, on threads where there are any. The parts, and what each does, are a function of
-// the work alone, so the number of threads cannot show.
+// Threads that help the one that calls, for as long as a scene or a view lives. What is done is cut
+// into items; what an item does is a function of the item alone, so neither the number of threads
+// nor their pace can show.
 //
-// One OpenMP region holds a whole commit. Its first thread, the caller's, runs the body and hands
-// out parts; the others only take parts. It waits for parts that are taken, never for a thread that
-// has none: on a busy machine a thread that is not running holds up nobody.
+// The caller does items as well, and waits for those that others have begun, never for a thread
+// that has none: on a busy machine a thread that does not run holds up nobody. (At the end of an
+// OpenMP region all threads wait for each other, which there costs a time slice; so the helpers
+// stay in one region of their own, and sleep when nothing has come for a while.)
 #ifndef OCC_TEAM_H
 #define OCC_TEAM_H
 
-#include <stdint.h>
+#include "memory.h"
 
 #define OCC_MOST_THREADS 1024u
 #define OCC_MOST_PARTS   64u
@@ -19,23 +21,33 @@ typedef struct occ_team occ_team;
 // How many threads `asked` stands for; 0 asks OpenMP.
 uint32_t occ_threads_offered(uint32_t asked);
 
-// Runs body(team, context) in this thread, with `threads` - 1 others at hand. For one thread the
-// team is NULL.
-void occ_with_team(uint32_t threads, void (*body)(occ_team *team, void *context), void *context);
+// Makes a team of so many threads, 1 at least. The others start when there is something to do.
+occ_result occ_team_create(occ_hooks *hooks, uint32_t threads, occ_team **team);
 
-uint32_t occ_team_size(const occ_team *team);
+// NULL is accepted.
+void occ_team_destroy(occ_hooks *hooks, occ_team *team);
 
-// Does work(job, 0) to work(job, parts - 1), in any order and perhaps at the same time.
+// Between these two calls the others look for items. What lies between must be worth a thread's
+// while; without them the caller does all alone.
+void occ_team_wake(occ_team *team);
+void occ_team_rest(occ_team *team);
+
+// Begins a list of items. work(context, i) will be called once for every item offered, in any order
+// and perhaps at the same time.
+void occ_team_begin(occ_team *team, void (*work)(void *context, uint32_t item), void *context);
+
+// Says that items below `count` may be done. A team that is NULL is accepted, as below.
+void occ_team_offer(occ_team *team, uint32_t count);
+
+// Takes part until all that was offered is done. Until the next offer, what work() reads may be
+// changed.
+void occ_team_settle(occ_team *team);
+
+// Does work(job, 0) to work(job, parts - 1).
 void occ_do_parts(occ_team *team, uint32_t parts, void (*work)(void *job, uint32_t part),
                   void *job);
 
-// Runs first(context) in this thread and others(context) in `threads` - 1 more. Where there are
-// none, only the first: it may not count on the others.
-void occ_first_and_others(uint32_t threads, void (*first)(void *context),
-                          void (*others)(void *context), void *context);
-
-// For loops that wait: lets other threads run now and then.
-void occ_wait_a_little(uint32_t *looks);
+uint32_t occ_team_size(const occ_team *team);
 
 // Into how many parts `count` items are cut: 1 to OCC_MOST_PARTS.
 static inline uint32_t occ_parts_of(uint32_t count)

@@ -5,10 +5,9 @@
 #include "knobs.h"
 #include "log.h"
 
-#include <string.h>
 #include <time.h>
 
-#define OVERLAP_OBJECTS 1000u // that the test is left with
+#define OVERLAP_OBJECTS 250u // that the test is left with
 
 static double now_ms(void)
 {
@@ -48,7 +47,7 @@ occ_result occ_view_make(const occ_view_desc *desc, const void *cl_desc, occ_vie
     }
     occ_view *made = occ_alloc(&hooks, sizeof *made);
     if (!made) return occ_fail(&hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for a view");
-    *made = (occ_view){.hooks = hooks, .mask = OCC_ARRAY(uint32_t)};
+    *made = (occ_view){.hooks = hooks, .mask = OCC_MASK};
     occ_frame_init(&made->frame, &made->hooks, occ_lanes_choose());
     result = make_backend(made, desc, cl_desc);
     if (result) {
@@ -75,7 +74,7 @@ void occ_view_destroy(occ_view *view)
     if (!view) return;
     if (view->backend) view->backend->ops->destroy(view->backend);
     occ_frame_free(&view->frame);
-    occ_array_free(&view->hooks, &view->mask);
+    occ_mask_free(&view->hooks, &view->mask);
     occ_hooks hooks = view->hooks;
     occ_free(&hooks, view, sizeof *view);
 }
@@ -111,12 +110,12 @@ typedef struct walk_call {
     double end;
 } walk_call;
 
-static void walk_on(occ_stream *stream, void *context)
+static void walk_on(occ_team *team, void *context)
 {
     walk_call *call = context;
-    call->frame->stream = stream;
+    call->frame->team = team;
     call->result = occ_walk(call->frame);
-    call->frame->stream = NULL;
+    call->frame->team = NULL;
     call->end = now_ms();
 }
 
@@ -142,12 +141,8 @@ static occ_result walk_and_test(occ_view *view, double *walked)
 static occ_result hand_over(occ_view *view)
 {
     const occ_frame *frame = &view->frame;
-    uint32_t slots = frame->scene->objects.count;
-    view->mask.count = 0;
-    uint32_t *mask = occ_array_extend(&view->hooks, &view->mask, OCC_MASK_WORDS(slots) + 1);
-    if (!mask) return OCC_ERROR_OUT_OF_MEMORY;
-    view->mask.count = (uint32_t)OCC_MASK_WORDS(slots);
-    memset(mask, 0, OCC_MASK_WORDS(slots) * sizeof *mask);
+    uint32_t words = (uint32_t)OCC_MASK_WORDS(frame->scene->objects.count);
+    if (occ_mask_start(&view->hooks, &view->mask, words)) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_range *ranges = frame->ranges.data;
     const occ_verdict *verdicts = frame->verdicts.data;
     const uint32_t *slot_of = occ_scene_slot_of(frame->scene);
@@ -155,8 +150,7 @@ static occ_result hand_over(occ_view *view)
     for (uint32_t i = 0; i < 2 * frame->ranges.count; i++) {
         uint32_t first = ranges[i / 2].first + 32 * (i % 2);
         for (uint32_t bits = verdicts[i / 2].visible[i % 2]; bits; bits &= bits - 1) {
-            uint32_t slot = slot_of[first + (uint32_t)__builtin_ctz(bits)];
-            mask[slot / 32] |= 1u << slot % 32;
+            occ_mask_set(&view->mask, slot_of[first + (uint32_t)__builtin_ctz(bits)]);
             stats->visible++;
         }
         stats->test_outside += (uint32_t)__builtin_popcount(verdicts[i / 2].outside[i % 2]);

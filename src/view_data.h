@@ -3,13 +3,14 @@
 #define OCC_VIEW_DATA_H
 
 #include "frame.h"
+#include "mask.h"
 #include "team.h"
 
 struct occ_view {
     occ_hooks hooks;
     occ_frame frame;
     occ_tester *backend;
-    occ_array mask;  // of uint32_t: the latest result
+    occ_mask mask;   // the latest result
     uint32_t tested; // objects, in the latest frame
     bool has_result;
     uint64_t scene_id, revision; // of which scene, and as of which commit

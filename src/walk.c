@@ -3,9 +3,9 @@
 // SIGGRAPH 1993; occluders by solid angle: Coorg and Teller, I3D 1997). What the occluders found so
 // far hide falls, with all that is in it; what they do not is opened, and its occluders join them,
 // nearest first. The shadows that touch a node are all that is asked about what is in it.
-#include "heap.h"
-
 #include "frame.h"
+
+#include <string.h>
 
 // Objects of a node that stay open.
 typedef struct open_range {
@@ -62,8 +62,9 @@ static occ_result leave_open(occ_frame *frame, const occ_walk_entry *entry, uint
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
     occ_relative_box box = occ_frame_relative_node(frame, node);
     float h[3] = {box.a[0], box.a[4], box.a[8]};
-    occ_walk_entry closing = {occ_frame_farness(frame, box.t, h), frame->open.count - 1, 0};
-    return occ_heap_push(frame->hooks, &frame->closing, &closing);
+    float farness = occ_frame_farness(frame, box.t, h);
+    return occ_queue_push(frame->hooks, &frame->closing,
+                          (occ_walk_entry){.key = farness, .index = frame->open.count - 1});
 }
 
 // Cuts a run of rows into ranges that share the candidates from `begin` on.
@@ -79,9 +80,11 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
         uint32_t left = open->count - i < OCC_RANGE_OBJECTS ? open->count - i : OCC_RANGE_OBJECTS;
         *range = (occ_range){open->first + i, left, begin, listed, open->planes, is_fused(frame)};
     }
-    occ_stream_offer(frame->stream, frame->ranges.count);
+    occ_team_offer(frame->team, frame->ranges.count);
     return OCC_SUCCESS;
 }
+
+#define MOST_SORTED 64u // candidates of a range that are sorted
 
 // How much of the screen an occluder takes up.
 static float shown_area(const occ_shadow_set *set, uint32_t i)
@@ -95,20 +98,27 @@ static float shown_area(const occ_shadow_set *set, uint32_t i)
     return area;
 }
 
+// Puts those that take up much of the screen first, in steps of a factor of four.
 static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t count)
 {
-    float area[64];
-    if (count > 64) return;
+    uint32_t sorted[MOST_SORTED], placed = 0;
+    float area[MOST_SORTED], least = 0.0f;
+    if (count < 2 || count > MOST_SORTED) return;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t s = list[i], k = i;
-        float a = shown_area(set, s);
-        for (; k > 0 && area[k - 1] < a; k--) {
-            area[k] = area[k - 1];
-            list[k] = list[k - 1];
-        }
-        area[k] = a;
-        list[k] = s;
+        area[i] = shown_area(set, list[i]);
+        least = area[i] > least ? area[i] : least;
     }
+    uint64_t waiting = ~(uint64_t)0 >> (MOST_SORTED - count);
+    for (uint32_t step = 0; waiting; step++) {
+        least = step < 3 ? least * 0.25f : -INFINITY;
+        for (uint64_t left = waiting; left; left &= left - 1) {
+            uint32_t i = (uint32_t)__builtin_ctzll(left);
+            if (area[i] < least) continue; // a NaN goes first
+            sorted[placed++] = list[i];
+            waiting &= ~((uint64_t)1 << i);
+        }
+    }
+    memcpy(list, sorted, count * sizeof *list);
 }
 
 // Lists the candidates of a range: the occluders that are near enough and touch it.
@@ -138,17 +148,17 @@ static occ_result close_range(occ_frame *frame, float key, const open_range *ope
 
 static occ_result close_first(occ_frame *frame)
 {
-    occ_walk_entry next = occ_heap_pop(&frame->closing);
+    occ_walk_entry next = occ_queue_pop(&frame->closing);
     return close_range(frame, next.key, (const open_range *)frame->open.data + next.index);
 }
 
 // Closes the ranges that are wholly nearer than what is still to be looked at: no occluder that is
 // found from here on can hide any of them.
-static occ_result close_nearer(occ_frame *frame, float key)
+static occ_result close_nearer(occ_frame *frame)
 {
-    const occ_walk_entry *heap = frame->closing.data;
     occ_result result = OCC_SUCCESS;
-    while (!result && frame->closing.count && heap[0].key < key)
+    while (!result && frame->closing.count &&
+           occ_queue_bucket_of_first(&frame->closing) < occ_queue_bucket_of_first(&frame->queue))
         result = close_first(frame);
     return result;
 }
@@ -159,16 +169,17 @@ static occ_result close_nearer(occ_frame *frame, float key)
 static occ_result push_occluders(occ_frame *frame, uint32_t planes, uint32_t first, uint32_t count)
 {
     const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
-    const occ_eye *eye = &frame->camera.constants;
-    for (uint32_t i = first; i < first + count; i++) {
-        occ_relative_box box = occ_frame_relative(frame, &boxes[i]);
-        if (!occ_occluder_is_large(frame, &box)) continue;
-        if (occ_box_outside(&box, eye->plane[0], planes)) continue;
-        float h[3];
-        for (int j = 0; j < 3; j++)
-            h[j] = fabsf(box.a[j]) + fabsf(box.a[3 + j]) + fabsf(box.a[6 + j]);
-        occ_walk_entry entry = {occ_frame_nearness(frame, box.t, h), i, OCC_WALK_OCCLUDER | planes};
-        if (occ_heap_push(frame->hooks, &frame->heap, &entry)) return OCC_ERROR_OUT_OF_MEMORY;
+    const occ_selection *choice = &frame->selection;
+    for (uint32_t i = 0; i < count; i += OCC_SHADOW_LANES) {
+        float key[OCC_SHADOW_LANES];
+        uint32_t left = count - i < OCC_SHADOW_LANES ? count - i : OCC_SHADOW_LANES;
+        uint32_t chosen = frame->lanes->select(boxes + first + i, left, choice, planes, key);
+        for (; chosen; chosen &= chosen - 1u) {
+            uint32_t l = (uint32_t)__builtin_ctz(chosen);
+            occ_walk_entry entry = {
+                .key = key[l], .index = first + i + l, .what = OCC_WALK_OCCLUDER | planes};
+            if (occ_queue_push(frame->hooks, &frame->queue, entry)) return OCC_ERROR_OUT_OF_MEMORY;
+        }
     }
     return OCC_SUCCESS;
 }
@@ -192,9 +203,10 @@ static occ_result push_child(occ_frame *frame, const occ_siblings *siblings, uin
     const occ_node *nodes = occ_octree_nodes(&frame->scene->object_tree);
     const occ_node *child = &siblings->nodes[c];
     occ_relative_box box = occ_frame_relative_node(frame, child);
-    occ_walk_entry entry = {nearness_of_node(frame, &box), (uint32_t)(child - nodes),
-                            OCC_WALK_NODE | siblings->frustum_of[c]};
-    return occ_heap_push(frame->hooks, &frame->heap, &entry);
+    occ_walk_entry entry = {.key = nearness_of_node(frame, &box),
+                            .index = (uint32_t)(child - nodes),
+                            .what = OCC_WALK_NODE | siblings->frustum_of[c]};
+    return occ_queue_push(frame->hooks, &frame->queue, entry);
 }
 
 static occ_result open_children(occ_frame *frame, const occ_walk_entry *entry)
@@ -253,10 +265,11 @@ static occ_result push_free(occ_frame *frame, uint32_t index, uint32_t planes)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->occluder_tree) + index;
     occ_relative_box box = occ_frame_relative_node(frame, node);
-    occ_walk_entry entry = {nearness_of_node(frame, &box), index, OCC_WALK_FREE | planes};
+    occ_walk_entry entry = {
+        .key = nearness_of_node(frame, &box), .index = index, .what = OCC_WALK_FREE | planes};
     float reach = ((const float *)frame->scene->reach.data)[index];
     if (!occ_occluder_may_be_large(frame, reach, entry.key)) return OCC_SUCCESS;
-    return occ_heap_push(frame->hooks, &frame->heap, &entry);
+    return occ_queue_push(frame->hooks, &frame->queue, entry);
 }
 
 // A node of the occluders that nobody owns.
@@ -288,6 +301,22 @@ static occ_result visit_free(occ_frame *frame, const occ_walk_entry *entry)
 
 // --- the walk ------------------------------------------------------------------------------------
 
+// Readies the queues for keys as they are in both trees.
+static void start_queues(occ_frame *frame)
+{
+    const occ_octree *trees[2] = {&frame->scene->object_tree, &frame->scene->occluder_tree};
+    float nearest = INFINITY, farthest = -INFINITY;
+    for (int i = 0; i < 2; i++) {
+        if (!trees[i]->nodes.count) continue;
+        occ_relative_box box = occ_frame_relative_node(frame, occ_octree_nodes(trees[i]));
+        float h[3] = {box.a[0], box.a[4], box.a[8]};
+        nearest = fminf(nearest, occ_frame_nearness(frame, box.t, h));
+        farthest = fmaxf(farthest, occ_frame_farness(frame, box.t, h));
+    }
+    occ_queue_start(&frame->queue, nearest, farthest);
+    occ_queue_start(&frame->closing, nearest, farthest);
+}
+
 static occ_result push_roots(occ_frame *frame)
 {
     const occ_camera *camera = &frame->camera;
@@ -311,7 +340,7 @@ static occ_result push_roots(occ_frame *frame)
         return OCC_SUCCESS;
     }
     occ_walk_entry entry = {.what = OCC_WALK_NODE | root.frustum_of[0]};
-    return occ_heap_push(frame->hooks, &frame->heap, &entry);
+    return occ_queue_push(frame->hooks, &frame->queue, entry);
 }
 
 static occ_result visit(occ_frame *frame, const occ_walk_entry *entry)
@@ -339,20 +368,20 @@ static occ_result take_all(occ_frame *frame)
 
 occ_result occ_walk(occ_frame *frame)
 {
-    frame->heap.element = sizeof(occ_walk_entry);
     frame->open.element = sizeof(open_range);
-    frame->closing.element = sizeof(occ_walk_entry);
-    frame->heap.count = frame->open.count = frame->closing.count = 0;
+    frame->open.count = 0;
     frame->ranges.count = frame->verdicts.count = frame->candidates.count = 0;
     occ_occluders_clear(frame);
     occ_result result = OCC_SUCCESS;
     if (frame->knobs.method == OCC_METHOD_PAIRWISE) {
         result = take_all(frame);
     } else {
+        start_queues(frame);
+        occ_occluders_prepare(frame);
         result = push_roots(frame);
-        while (!result && frame->heap.count) {
-            occ_walk_entry entry = occ_heap_pop(&frame->heap);
-            result = close_nearer(frame, entry.key);
+        while (!result && frame->queue.count) {
+            result = close_nearer(frame);
+            occ_walk_entry entry = occ_queue_pop(&frame->queue);
             if (!result) result = visit(frame, &entry);
         }
         while (!result && frame->closing.count)

@@ -155,23 +155,24 @@ static inline float largest_of_wide(fwide x, uint32_t lanes)
 #endif
 }
 
-// The largest of the first `count` lanes (at least one) of positive numbers.
-static inline float largest_of_node(fnode x, uint32_t count)
+#if OCC_NODE_WIDTH == 8
+// Lanes of x in the order of an index.
+static inline fnode permute_node(fnode x, inode index)
+{
+    return (fnode)_mm256_permutevar8x32_ps((__m256)x, (__m256i)index);
+}
+
+// Lanes of x, and from index 8 on of y.
+static inline fnode permute_two(fnode x, fnode y, inode index)
 {
 #if OCC_WIDTH == 16
-    __m256 lanes = _mm256_maskz_mov_ps((__mmask8)((1u << count) - 1u), (__m256)x);
-    __m128 most = _mm_max_ps(_mm256_castps256_ps128(lanes), _mm256_extractf128_ps(lanes, 1));
-    most = _mm_max_ps(most, _mm_movehl_ps(most, most));
-    return _mm_cvtss_f32(_mm_max_ss(most, _mm_movehdup_ps(most)));
+    return (fnode)_mm256_permutex2var_ps((__m256)x, (__m256i)index, (__m256)y);
 #else
-    float lane[OCC_NODE_WIDTH], most;
-    store_node(lane, x);
-    most = lane[0];
-    for (uint32_t l = 1; l < count; l++)
-        most = lane[l] > most ? lane[l] : most;
-    return most;
+    return (fnode)_mm256_blendv_ps((__m256)permute_node(x, index), (__m256)permute_node(y, index),
+                                   (__m256)(index << 28));
 #endif
 }
+#endif
 
 // The least and the largest of eight floats.
 static inline float least_of_eight(const float *x)

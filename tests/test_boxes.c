@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boxes.h"
-#include "kit.h"
+#include "kit_team.h"
 #include "support.h"
 
 #include <math.h>
@@ -153,7 +153,7 @@ START_TEST(gathering_puts_rows_into_the_order_asked_for)
         source[i] = source[j];
         source[j] = i;
     }
-    occ_with_team((uint32_t)_i + 1, gather, scratch);
+    kit_with_team((uint32_t)_i + 1, gather, scratch);
     for (uint32_t i = 0; i < GATHERED; i++)
         check_row(i, source[i]);
     free(scratch);

@@ -106,7 +106,7 @@ START_TEST(row_has_a_value_in_every_column_that_applies)
                                      {"method", "single"},
                                      {"backend", "openmp"},
                                      {"threads", "1"},
-                                     {"min_area_sr", "0.0002"},
+                                     {"min_area_sr", "0.0003"},
                                      {"max_occluders", "1024"},
                                      {"grain", "64"},
                                      {"max_splits", ""},

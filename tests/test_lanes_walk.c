@@ -44,32 +44,33 @@ static bool shows(const occ_question *q, const occ_shadow_set *set, const occ_ey
     return false;
 }
 
-// Whether the outline is covered by what the box is wholly behind.
-static bool is_covered(const occ_question *q, const occ_fusion *candidates,
+// Whether the outline is covered by what the box is wholly behind: those listed.
+static bool is_covered(const occ_question *q, const uint32_t *list, uint32_t count,
                        const occ_shadow_set *set, const occ_eye *eye)
 {
-    occ_fusion fusion = *candidates;
+    const uint32_t any_row = OCC_NOBODY - 1u;
+    occ_fusion fusion;
     occ_outline outline;
     if (!occ_outline_set(&outline, q->box, eye, 0)) return false;
     fusion.depth = occ_outline_pieces(&outline, q->box, fusion.stack);
-    return fusion.depth && occ_fusion_covers(&fusion, eye, q->frustum, set->shadows, 0);
+    return fusion.depth && occ_fusion_covers(&fusion, q->box, eye, q->frustum, set->shadows, list,
+                                             count, any_row, 0);
 }
 
 typedef enum said { SHOWN, ALONE, TOGETHER, UNKNOWN } said;
 
 static said hide_plainly(const occ_question *q, const occ_shadow_set *set, const occ_eye *eye)
 {
-    occ_fusion fusion = {.candidates = 0};
+    uint32_t list[KIT_SET_MOST], count = 0;
     for (uint32_t i = 0; i < set->count; i++) {
         kit_contact met = kit_contact_of(q->box, &set->shadows[i]);
         if (met.apart || is_own(q, &set->shadows[i])) continue;
         if (met.inside) return ALONE;
-        if (!met.faces) occ_fusion_consider(&fusion, q->box, &set->shadows[i], i);
+        list[count++] = i;
     }
     if (!q->fuse || shows(q, set, eye)) return SHOWN;
-    if (fusion.candidates == OCC_FUSION_CANDIDATES) return UNKNOWN; // there may be more
-    if (!is_covered(q, &fusion, set, eye)) return SHOWN;
-    return fusion.candidates ? TOGETHER : UNKNOWN; // beside the picture there is nothing to hide
+    if (!is_covered(q, list, count, set, eye)) return SHOWN;
+    return count ? TOGETHER : UNKNOWN; // beside the picture there is nothing to hide
 }
 
 // Those that touch the box; or true, where one of them holds it.

@@ -31,6 +31,8 @@ static const struct {
     RESULT(OCC_ERROR_LIMIT, -13),
     RESULT(OCC_ERROR_CORRUPT, -14),
     RESULT(OCC_ERROR_NO_RESULT, -15),
+    RESULT(OCC_ERROR_NOT_INSIDE, -16),
+    RESULT(OCC_ERROR_CANCELLED, -17),
 };
 
 enum { RESULTS = (int)(sizeof given_out / sizeof *given_out) };
@@ -63,7 +65,7 @@ END_TEST
 
 START_TEST(number_that_is_no_result_has_a_name_and_a_message_too)
 {
-    static const int strangers[] = {1, -16, -1000, 2147483647, -2147483647 - 1};
+    static const int strangers[] = {1, -18, -1000, 2147483647, -2147483647 - 1};
     for (size_t i = 0; i < sizeof strangers / sizeof *strangers; i++) {
         ck_assert_str_eq(occ_result_name((occ_result)strangers[i]), "OCC_UNKNOWN");
         const char *message = occ_result_message((occ_result)strangers[i]);

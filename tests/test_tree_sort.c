@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kit.h"
+#include "kit_team.h"
 #include "support.h"
 #include "tree_sort.h"
 
@@ -110,7 +110,7 @@ static void sort_and_compare(key_maker maker, uint32_t count, uint32_t threads)
         expected[i] = entries[i] = (occ_tree_entry){maker(&random, i, count), i};
     qsort(expected, count, sizeof *expected, compare);
     sorting s = {entries, NULL, count};
-    occ_with_team(threads, sort_all, &s);
+    kit_with_team(threads, sort_all, &s);
     for (uint32_t i = 0; i < count; i++) {
         KIT_CHECK(entries[i].key == expected[i].key, "entry %u of %u is out of order", i, count);
         KIT_CHECK(entries[i].row == expected[i].row, "%u of %u equal keys changed places", i,

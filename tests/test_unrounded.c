@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // labels: property oracle
 // The numbers without rounding against GMP's rationals.
+#include "soup/unrounded.h"
 #include "steady.h"
 #include "support.h"
-#include "unrounded.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -22,7 +22,7 @@ static float any_float(steady_random *random)
     return (float)ldexp(steady_below(random, 2) ? mantissa : -mantissa, exponent);
 }
 
-static void to_rational(mpq_t out, const unrounded *a, unsigned factors)
+static void to_rational(mpq_t out, const occ_unrounded *a, unsigned factors)
 {
     mpz_t whole;
     mpz_init(whole);
@@ -59,7 +59,7 @@ START_TEST(float_is_kept_as_it_is)
     mpq_t want, got;
     mpq_inits(want, got, NULL);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        unrounded a = unrounded_from(values[i]);
+        occ_unrounded a = occ_unrounded_from(values[i]);
         to_rational(got, &a, 1);
         mpq_set_d(want, (double)values[i]);
         ck_assert_msg(mpq_equal(want, got), "%a", (double)values[i]);
@@ -77,21 +77,21 @@ START_TEST(determinant_of_differences_equals_the_rational_one)
     for (int i = 0; i < 9; i++)
         mpq_init(v[i / 3][i % 3]);
     for (int trial = 0; trial < TRIALS; trial++) {
-        unrounded_vector p[4], d[3];
+        occ_unrounded_vector p[4], d[3];
         float f[4][3];
         for (int i = 0; i < 12; i++)
             f[i / 3][i % 3] = any_float(&random);
         for (int i = 0; i < 4; i++)
-            p[i] = unrounded_vector_from(f[i]);
+            p[i] = occ_unrounded_vector_from(f[i]);
         for (int i = 0; i < 3; i++) {
-            d[i] = unrounded_vector_subtract(&p[i + 1], &p[0]);
+            d[i] = occ_unrounded_vector_subtract(&p[i + 1], &p[0]);
             for (int k = 0; k < 3; k++) {
                 mpq_set_d(v[i][k], (double)f[i + 1][k]);
                 mpq_set_d(base, (double)f[0][k]);
                 mpq_sub(v[i][k], v[i][k], base);
             }
         }
-        unrounded value = unrounded_determinant(&d[0], &d[1], &d[2]);
+        occ_unrounded value = occ_unrounded_determinant(&d[0], &d[1], &d[2]);
         rational_determinant(want, v);
         to_rational(got, &value, 3);
         ck_assert_msg(mpq_equal(want, got), "trial %d", trial);
@@ -107,11 +107,12 @@ START_TEST(sum_and_difference_undo_each_other)
 {
     steady_random random = steady_seed(2, "unrounded");
     for (int trial = 0; trial < TRIALS; trial++) {
-        unrounded a = unrounded_from(any_float(&random)), b = unrounded_from(any_float(&random));
-        unrounded sum = unrounded_add(&a, &b), back = unrounded_subtract(&sum, &b);
+        occ_unrounded a = occ_unrounded_from(any_float(&random)),
+                      b = occ_unrounded_from(any_float(&random));
+        occ_unrounded sum = occ_unrounded_add(&a, &b), back = occ_unrounded_subtract(&sum, &b);
         ck_assert_int_eq(back.sign, a.sign);
-        ck_assert_int_eq(unrounded_compare_magnitude(&back, &a), 0);
-        unrounded nothing = unrounded_subtract(&a, &a);
+        ck_assert_int_eq(occ_unrounded_compare_magnitude(&back, &a), 0);
+        occ_unrounded nothing = occ_unrounded_subtract(&a, &a);
         ck_assert_int_eq(nothing.sign, 0);
         ck_assert_uint_eq(nothing.used, 0);
     }

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
 
-#include "cluster.h"
-#include "model.h"
+#include "division.h"
 #include "obs.h"
 #include "options.h"
 #include "path.h"
-#include "progress.h"
-#include "sheets.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { CONVERT_PATTERNS = 64 };
 
 typedef struct convert_arguments {
-    const char *model, *out, *up;
-    char *see_through; // one pattern after the other, by commas
-    const char *patterns[CONVERT_PATTERNS];
-    model_options options;
-    uint32_t most, frames;
+    const char *model, *out;
+    division_options division;
+    uint32_t frames;
     double eye_height, least_area;
 } convert_arguments;
 
@@ -47,44 +38,25 @@ static const char convert_usage[] =
     "\n"
     "Example: occlude-bench convert hall.obj --out hall.obs --see-through 'glass*'\n";
 
-// Cuts the list at its commas, in place.
-static bool split_patterns(convert_arguments *arguments)
-{
-    char *next = arguments->see_through;
-    while (next && *next) {
-        if (arguments->options.see_through_count == CONVERT_PATTERNS) return false;
-        arguments->patterns[arguments->options.see_through_count++] = next;
-        next = strchr(next, ',');
-        if (next) *next++ = '\0';
-    }
-    arguments->options.see_through = arguments->patterns;
-    return true;
-}
-
 // Returns a complaint, or NULL.
 static const char *complete_arguments(convert_arguments *arguments)
 {
     if (!arguments->out) return "expected --out F.obs";
-    if (arguments->most < 2) return "--triangles is 2 at least: a sheet's triangles stay together";
     if (arguments->frames > 100000) return "--frames is 100000 at most";
-    if (!split_patterns(arguments)) return "too many patterns after --see-through";
-    if (!arguments->up) return NULL;
-    if (strcmp(arguments->up, "y") != 0 && strcmp(arguments->up, "z") != 0)
-        return "expected y or z after --up";
-    arguments->options.up = *arguments->up == 'y' ? MODEL_UP_Y : MODEL_UP_Z;
-    return NULL;
+    return division_complete(&arguments->division);
 }
 
 // Returns 0, 2 after a complaint, or OPTIONS_HELP.
 static int parse_convert(int argc, char **argv, convert_arguments *arguments)
 {
-    *arguments = (convert_arguments){.most = 32, .frames = 60};
+    *arguments = (convert_arguments){.division = division_defaults(), .frames = 60};
+    division_options *dividing = &arguments->division;
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
-                                     {"--triangles", OPTIONS_COUNT, &arguments->most},
+                                     {"--triangles", OPTIONS_COUNT, &dividing->most},
                                      {"--frames", OPTIONS_COUNT, &arguments->frames},
                                      {"--eye", OPTIONS_REAL, &arguments->eye_height},
-                                     {"--up", OPTIONS_TEXT, &arguments->up},
-                                     {"--see-through", OPTIONS_TEXT, &arguments->see_through},
+                                     {"--up", OPTIONS_TEXT, &dividing->up},
+                                     {"--see-through", OPTIONS_TEXT, &dividing->see_through},
                                      {"--min-sheet", OPTIONS_REAL, &arguments->least_area},
                                      {NULL, OPTIONS_FLAG, NULL}};
     char *words[1];
@@ -103,47 +75,19 @@ static bool out_of_memory(void)
     return false;
 }
 
-// One object's bounds. The points are copied together for the library's own function.
-static bool bound_object(const model *m, const cluster_list *objects, uint32_t object,
-                         float (*points)[3], occ_box *box)
+static bool add_objects(const division *d, obs_scene *scene)
 {
-    size_t count = 0;
-    for (uint32_t i = objects->first[object]; i < objects->first[object + 1]; i++)
-        for (int c = 0; c < 3; c++)
-            memcpy(points[count++], m->positions[m->corners[objects->triangles[i]][c]],
-                   3 * sizeof(float));
-    occ_result result = occ_box_from_points(points[0], count, 0, box);
-    if (result == OCC_SUCCESS) return true;
-    fprintf(stderr, "occlude-bench: bounds of object %u: %s\n", object, occ_result_message(result));
-    return false;
+    for (uint32_t o = 0; o < d->objects.count; o++)
+        if (obs_add_object(scene, &d->boxes[o]) == UINT32_MAX) return out_of_memory();
+    return true;
 }
 
-static bool add_objects(const model *m, const cluster_list *objects, obs_scene *scene)
+static bool add_sheets(const division *d, double least_area, obs_scene *scene)
 {
-    uint32_t most = 0;
-    for (uint32_t o = 0; o < objects->count; o++) {
-        uint32_t count = objects->first[o + 1] - objects->first[o];
-        if (count > most) most = count;
-    }
-    float(*points)[3] = malloc(((size_t)most * 3 + 1) * sizeof *points);
-    if (!points) return out_of_memory();
-    bool good = true;
-    for (uint32_t o = 0; good && o < objects->count; o++) {
-        occ_box box;
-        good = bound_object(m, objects, o, points, &box) &&
-               (obs_add_object(scene, &box) != UINT32_MAX || out_of_memory());
-    }
-    free(points);
-    return good;
-}
-
-static bool add_sheets(const sheet_list *sheets, const cluster_list *objects, double least_area,
-                       obs_scene *scene)
-{
-    for (uint32_t i = 0; i < sheets->count; i++) {
-        const sheet *s = &sheets->at[i];
+    for (uint32_t i = 0; i < d->sheets.count; i++) {
+        const sheet *s = &d->sheets.at[i];
         if (s->area < least_area) continue;
-        uint32_t owner = objects->object_of[s->triangles[0]];
+        uint32_t owner = d->objects.object_of[s->triangles[0]];
         if (obs_add_occluder(scene, &s->box, owner) == UINT32_MAX) return out_of_memory();
     }
     return true;
@@ -189,30 +133,19 @@ static void print_report(const model *m, const sheet_list *sheets, const path_re
            surface > 0 ? 100 * area / surface : 0, scene->frame_count, path->kind);
 }
 
-static bool make_objects(const convert_arguments *arguments, const model *m,
-                         const sheet_list *sheets, obs_scene *scene)
-{
-    cluster_list objects;
-    if (!clusters_build(m, sheets, arguments->most, &objects)) return out_of_memory();
-    bool good = add_objects(m, &objects, scene) &&
-                add_sheets(sheets, &objects, arguments->least_area, scene);
-    clusters_free(&objects);
-    return good;
-}
-
 static bool convert_model(const convert_arguments *arguments, const model *m)
 {
-    sheet_list sheets;
+    division d;
     obs_scene scene = {0};
     path_report path;
-    if (!sheets_find(m, &sheets)) return out_of_memory();
-    bool good = make_objects(arguments, m, &sheets, &scene) &&
+    if (!division_make(m, arguments->division.most, &d)) return false;
+    bool good = add_objects(&d, &scene) && add_sheets(&d, arguments->least_area, &scene) &&
                 (path_make(m, arguments->frames, arguments->eye_height, &scene, &path) ||
                  out_of_memory()) &&
                 obs_write(arguments->out, &scene);
-    if (good) print_report(m, &sheets, &path, &scene);
+    if (good) print_report(m, &d.sheets, &path, &scene);
     obs_free(&scene);
-    sheets_free(&sheets);
+    division_free(&d);
     return good;
 }
 
@@ -223,7 +156,7 @@ int bench_convert(int argc, char **argv)
     if (status == OPTIONS_HELP) return fputs(convert_usage, stdout) < 0;
     if (status != 0) return status;
     model m;
-    if (!model_read(arguments.model, &arguments.options, &m)) return 1;
+    if (!model_read(arguments.model, &arguments.division.model, &m)) return 1;
     bool good = convert_model(&arguments, &m);
     model_free(&m);
     return good ? 0 : 1;

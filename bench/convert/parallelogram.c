@@ -3,7 +3,7 @@
 // handed out has passed a test without rounding.
 #include "parallelogram.h"
 
-#include "unrounded.h"
+#include "soup/unrounded.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 // The quad as exact points, and the two coordinates it is seen along: a projection that keeps area.
 typedef struct quad {
     const float *const *corner;
-    unrounded_vector point[4];
+    occ_unrounded_vector point[4];
     int i, j;  // The coordinates kept.
     int sense; // Which way round the corners go, seen so.
 } quad;
@@ -23,11 +23,12 @@ typedef struct ray {
     int bits;     // Significant bits in a step: a float multiple may have about 24 less these.
 } ray;
 
-static int side(const quad *q, const unrounded_vector *a, const unrounded_vector *b,
-                const unrounded_vector *c)
+static int side(const quad *q, const occ_unrounded_vector *a, const occ_unrounded_vector *b,
+                const occ_unrounded_vector *c)
 {
-    unrounded_vector ab = unrounded_vector_subtract(b, a), ac = unrounded_vector_subtract(c, a);
-    return unrounded_minor(&ab, &ac, q->i, q->j).sign;
+    occ_unrounded_vector ab = occ_unrounded_vector_subtract(b, a),
+                         ac = occ_unrounded_vector_subtract(c, a);
+    return occ_unrounded_minor(&ab, &ac, q->i, q->j).sign;
 }
 
 static double area_of(const double u[3], const double v[3])
@@ -60,20 +61,20 @@ static quad make_quad(const float *const corner[4])
         }
     }
     for (int k = 0; k < 4; k++)
-        q.point[k] = unrounded_vector_from(corner[k]);
+        q.point[k] = occ_unrounded_vector_from(corner[k]);
     q.sense = side(&q, &q.point[0], &q.point[1], &q.point[2]);
     return q;
 }
 
-static bool in_plane(const quad *q, const unrounded_vector *p)
+static bool in_plane(const quad *q, const occ_unrounded_vector *p)
 {
-    unrounded_vector a = unrounded_vector_subtract(&q->point[1], &q->point[0]);
-    unrounded_vector b = unrounded_vector_subtract(&q->point[2], &q->point[0]);
-    unrounded_vector c = unrounded_vector_subtract(p, &q->point[0]);
-    return unrounded_determinant(&a, &b, &c).sign == 0;
+    occ_unrounded_vector a = occ_unrounded_vector_subtract(&q->point[1], &q->point[0]);
+    occ_unrounded_vector b = occ_unrounded_vector_subtract(&q->point[2], &q->point[0]);
+    occ_unrounded_vector c = occ_unrounded_vector_subtract(p, &q->point[0]);
+    return occ_unrounded_determinant(&a, &b, &c).sign == 0;
 }
 
-static bool in_quad(const quad *q, const unrounded_vector *p)
+static bool in_quad(const quad *q, const occ_unrounded_vector *p)
 {
     for (int k = 0; k < 4; k++)
         if (side(q, &q->point[k], &q->point[(k + 1) % 4], p) == -q->sense) return false;
@@ -83,13 +84,13 @@ static bool in_quad(const quad *q, const unrounded_vector *p)
 // All numbers of the box are finite floats, so the four sums are exact.
 static bool box_in_quad(const quad *q, const occ_box *box)
 {
-    unrounded_vector center = unrounded_vector_from(box->center);
-    unrounded_vector u = unrounded_vector_from(box->axis[0]),
-                     v = unrounded_vector_from(box->axis[1]);
+    occ_unrounded_vector center = occ_unrounded_vector_from(box->center);
+    occ_unrounded_vector u = occ_unrounded_vector_from(box->axis[0]),
+                         v = occ_unrounded_vector_from(box->axis[1]);
     for (int k = 0; k < 4; k++) {
-        unrounded_vector p =
-            k & 1 ? unrounded_vector_add(&center, &u) : unrounded_vector_subtract(&center, &u);
-        p = k & 2 ? unrounded_vector_add(&p, &v) : unrounded_vector_subtract(&p, &v);
+        occ_unrounded_vector p = k & 1 ? occ_unrounded_vector_add(&center, &u)
+                                       : occ_unrounded_vector_subtract(&center, &u);
+        p = k & 2 ? occ_unrounded_vector_add(&p, &v) : occ_unrounded_vector_subtract(&p, &v);
         if (!in_quad(q, &p)) return false;
     }
     return true;

@@ -9,10 +9,10 @@
 #include <string.h>
 #include <sys/resource.h>
 
-enum { SIDES = 2, PARTS = 3 };
+enum { SIDES = 2, PARTS = 4 };
 
-// Each frame's times: those of a frame, a side (one thread, two) and a part (whole, walk, test)
-// stand together, a round each.
+// Each frame's times: those of a frame, a side (one thread, two) and a part (whole, walk, test,
+// moved) stand together, a round each.
 typedef struct pair_times {
     double *ms;
     double builds[ERROR_ROUNDS];
@@ -31,6 +31,7 @@ static void note_times(const pair_times *times, int side, int round, const measu
         times_of(times, i, side, 0)[round] = result->frames[i].ms;
         times_of(times, i, side, 1)[round] = result->frames[i].walk_ms;
         times_of(times, i, side, 2)[round] = result->frames[i].test_ms;
+        times_of(times, i, side, 3)[round] = result->frames[i].moved_ms;
     }
 }
 
@@ -48,6 +49,7 @@ static bool sum_up(const pair_times *times, int side, measure_result *result,
         frame->ms = timing_median(times_of(times, i, side, 0), ERROR_ROUNDS);
         frame->walk_ms = timing_median(times_of(times, i, side, 1), ERROR_ROUNDS);
         frame->test_ms = timing_median(times_of(times, i, side, 2), ERROR_ROUNDS);
+        frame->moved_ms = timing_median(times_of(times, i, side, 3), ERROR_ROUNDS);
     }
     if (measure_summarize(result, summary)) return true;
     fputs("occlude-bench: not enough memory\n", stderr);

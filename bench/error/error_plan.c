@@ -15,7 +15,7 @@ const error_method error_methods[] = {
     {NULL, 0}};
 
 const occ_cull_desc error_default_knobs = {
-    .min_area = 2e-4f, .max_occluders = 1024, .grain = 64, .max_splits = 48};
+    .min_area = 3e-4f, .max_occluders = 1024, .grain = 64, .max_splits = 48};
 
 // One knob is turned at a time, in the order in which a curve is drawn.
 static const struct {
@@ -23,14 +23,14 @@ static const struct {
     bool is_quick;
 } error_settings[] = {
     {{.min_area = 2e-5f, .max_occluders = 1024, .grain = 64}, true},
-    {{.min_area = 2e-4f, .max_occluders = 1024, .grain = 64}, true},
+    {{.min_area = 3e-4f, .max_occluders = 1024, .grain = 64}, true},
     {{.min_area = 2e-3f, .max_occluders = 1024, .grain = 64}, true},
     {{.min_area = 2e-2f, .max_occluders = 1024, .grain = 64}, false},
-    {{.min_area = 2e-4f, .max_occluders = 64, .grain = 64}, true},
-    {{.min_area = 2e-4f, .max_occluders = 256, .grain = 64}, false},
-    {{.min_area = 2e-4f, .max_occluders = 4096, .grain = 64}, false},
-    {{.min_area = 2e-4f, .max_occluders = 1024, .grain = 8}, false},
-    {{.min_area = 2e-4f, .max_occluders = 1024, .grain = 256}, false},
+    {{.min_area = 3e-4f, .max_occluders = 64, .grain = 64}, true},
+    {{.min_area = 3e-4f, .max_occluders = 256, .grain = 64}, false},
+    {{.min_area = 3e-4f, .max_occluders = 4096, .grain = 64}, false},
+    {{.min_area = 3e-4f, .max_occluders = 1024, .grain = 8}, false},
+    {{.min_area = 3e-4f, .max_occluders = 1024, .grain = 256}, false},
 };
 enum { SETTINGS = sizeof error_settings / sizeof *error_settings };
 

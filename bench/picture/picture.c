@@ -81,13 +81,9 @@ static int parse_picture(int argc, char **argv, picture_arguments *arguments)
                                      {"--explain", OPTIONS_TEXT, &arguments->object_text},
                                      {"--size", OPTIONS_TEXT, &arguments->size_text},
                                      {NULL, OPTIONS_FLAG, NULL}};
-    char *words[1];
-    int count = options_parse(argc, argv, entries, words, 1);
-    if (count == OPTIONS_HELP) return OPTIONS_HELP;
-    if (count == OPTIONS_BAD) return 2;
-    if (count != 1) return options_complain(argv[0], "expected a scene file");
+    int status = options_parse_scene(argc, argv, entries, &arguments->scene);
+    if (status) return status;
     if (!arguments->out) return options_complain(argv[0], "expected --out P.png");
-    arguments->scene = words[0];
     return read_options(argv[0], arguments);
 }
 

@@ -36,46 +36,22 @@ static int parse_truth(int argc, char **argv, truth_arguments *arguments)
                                      {"--frames", OPTIONS_TEXT, &arguments->frames},
                                      {"--size", OPTIONS_TEXT, &arguments->size},
                                      {NULL, OPTIONS_FLAG, NULL}};
-    char *words[1];
-    int count = options_parse(argc, argv, entries, words, 1);
-    if (count == OPTIONS_HELP) return OPTIONS_HELP;
-    if (count == OPTIONS_BAD) return 2;
-    if (count != 1) return options_complain(argv[0], "expected a scene file");
+    int status = options_parse_scene(argc, argv, entries, &arguments->scene);
+    if (status) return status;
     if (!arguments->out) return options_complain(argv[0], "expected --out T.tru");
     const options_extent least = {1, 1};
     if (!options_size(arguments->size, least, TRUTH_MAX_SIDE, &arguments->extent))
         return options_complain(argv[0], "expected --size as 4096x2304, 16384x16384 at most");
-    arguments->scene = words[0];
     return 0;
-}
-
-// Fills `list`, which has room for every frame of the scene. NULL, or a complaint.
-static const char *parse_frames(const char *text, uint32_t frame_count, uint32_t *list,
-                                uint32_t *count)
-{
-    static const char complaint[] = "expected --frames as 0,20,40: ascending, and in the scene";
-    *count = 0;
-    uint64_t next = 0;
-    for (;;) {
-        char number[16];
-        size_t length = strcspn(text, ",");
-        uint64_t frame;
-        if (length >= sizeof number || frame_count == 0) return complaint;
-        memcpy(number, text, length);
-        number[length] = '\0';
-        if (!options_number(number, next, frame_count - 1, &frame)) return complaint;
-        list[(*count)++] = (uint32_t)frame;
-        next = frame + 1;
-        text += length;
-        if (*text == '\0') return NULL;
-        text++;
-    }
 }
 
 static const char *choose_frames(const truth_arguments *arguments, uint32_t frame_count,
                                  uint32_t *list, uint32_t *count)
 {
-    if (arguments->frames) return parse_frames(arguments->frames, frame_count, list, count);
+    if (arguments->frames)
+        return options_ascending(arguments->frames, frame_count, list, count)
+                   ? NULL
+                   : "expected --frames as 0,20,40: ascending, and in the scene";
     for (*count = 0; *count < 3 && 20 * *count < frame_count; (*count)++)
         list[*count] = 20 * *count;
     return *count > 0 ? NULL : "the scene has no frames";

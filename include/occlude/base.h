@@ -55,7 +55,9 @@ typedef enum occ_result {
     OCC_ERROR_DEVICE = -12,       ///< A call to the device failed, or the device was lost.
     OCC_ERROR_LIMIT = -13,        ///< More objects, occluders or slots than 32-bit indices hold.
     OCC_ERROR_CORRUPT = -14,      ///< A validator found a broken invariant (a bug of the library).
-    OCC_ERROR_NO_RESULT = -15     ///< The view holds no result: nothing was culled with it yet.
+    OCC_ERROR_NO_RESULT = -15,    ///< The view holds no result: nothing was culled with it yet.
+    OCC_ERROR_NOT_INSIDE = -16,   ///< A box that was checked is not where it was claimed to be.
+    OCC_ERROR_CANCELLED = -17     ///< The caller's progress function stopped the work.
 } occ_result;
 
 /// The enumerator's own name, such as "OCC_ERROR_STALE_HANDLE"; "OCC_UNKNOWN" for other numbers.

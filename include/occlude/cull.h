@@ -83,7 +83,7 @@ typedef struct occ_cull_desc {
     occ_preset preset; ///< Sets those of the knobs below that are 0. Default: balanced.
     /// The smallest solid angle, in steradians, at which an occluder is worth using: about its
     /// projected area over its distance squared; for an orthographic camera, over the view's area.
-    /// 0: the preset's, 2e-4 by default. For every occluder, pass 1e-30.
+    /// 0: the preset's, 3e-4 by default. For every occluder, pass 1e-30.
     float min_area;
     /// Most occluders used in a frame, nearest first. 0: the preset's, 1024 by default.
     uint32_t max_occluders;
@@ -125,7 +125,8 @@ OCC_API OCC_NODISCARD occ_result occ_view_read_mask(const occ_view *view, uint32
 OCC_API OCC_NODISCARD occ_result occ_view_read_visible(const occ_view *view, uint32_t *slots,
                                                        size_t capacity, size_t *count);
 
-/// Copies the occluders that took part, nearest first. Same rules as for the mask.
+/// Copies the occluders that took part, front to back: none is nearer than one before it by more
+/// than a sixteenth of that one's squared distance. Same rules as for the mask.
 OCC_API OCC_NODISCARD occ_result occ_view_read_occluders(const occ_view *view,
                                                          occ_occluder *occluders, size_t capacity,
                                                          size_t *count);
@@ -141,7 +142,7 @@ typedef enum occ_fate {
     OCC_FATE_HIDDEN = 2   ///< Occluders hide all of it that is inside the frustum.
 } occ_fate;
 
-/// Says what became of an object by the latest result, and which occluders hid it, nearest first:
+/// Says what became of an object by the latest result, and which occluders hid it, front to back:
 /// one, or several that do it together and of which the proof can spare none; no occluder if the
 /// object was not hidden. Same rules for `occluders` as for the mask. `fate` and `count` may be
 /// NULL.

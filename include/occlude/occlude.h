@@ -28,9 +28,10 @@
 ///
 /// **Threads.** A scene may be read by any number of threads while none edits it: occ_cull() takes
 /// it const. Edits and occ_scene_commit() need it alone. A view belongs to one thread at a time.
-/// A commit and a cull may use threads of their own, which are gone from the scene when they
-/// return. There is no state outside scenes and views. With GNU OpenMP, do not fork() after the
-/// first parallel commit or cull.
+/// Scenes and views have threads of their own to help with large commits and culls. They start when
+/// they are first of use, read nothing once the call has returned, sleep soon after, and end with
+/// the scene or view; a call never waits for one that is not running. A child process makes its own
+/// after a fork(). There is no state outside scenes and views.
 ///
 /// **Errors** are occ_result values; a log line gives the reason if a logger was set. Bad input
 /// never aborts and leaves the scene untouched.
@@ -45,7 +46,9 @@
 
 #include "base.h"
 #include "cull.h"
+#include "inner.h"
 #include "scene.h"
+#include "soup.h"
 #include "version.h"
 
 #endif

@@ -33,6 +33,26 @@ OCC_API OCC_NODISCARD occ_result occ_box_from_model(const float *model, const fl
 OCC_API OCC_NODISCARD occ_result occ_box_from_points(const float *points, size_t count,
                                                      size_t stride, occ_box *box);
 
+/// Most corners of a sheet.
+#define OCC_SHEET_CORNERS 8
+
+/// From where a sheet hides.
+typedef enum occ_sides {
+    OCC_SIDES_BOTH = 0, ///< From both sides: its surface is drawn from both.
+    OCC_SIDES_FRONT = 1 ///< From where its corners go counterclockwise: back faces are not drawn.
+} occ_sides;
+
+/// A flat convex polygon, as an occluder: the triangles (0, 1, 2), (0, 2, 3), … of its corners, in
+/// order around it. Corners that rounding has moved out of one plane are no error: what a sheet
+/// hides is behind all of its corners, so that any opaque surface may take its place that has the
+/// same outline and whose points lie within the corners' reach across it. A polygon that is not
+/// convex is no error either, but hides less. No padding.
+typedef struct occ_sheet {
+    uint32_t corner_count;              ///< 3 to OCC_SHEET_CORNERS.
+    occ_sides sides;                    ///< Default: both.
+    float corner[OCC_SHEET_CORNERS][3]; ///< In world units; beyond `corner_count` not read.
+} occ_sheet;
+
 /// Names an object for as long as it is in its scene. All zero is no object. A handle outlives its
 /// object safely: using it then gives OCC_ERROR_STALE_HANDLE.
 typedef struct occ_object {
