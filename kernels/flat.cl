@@ -171,7 +171,7 @@ occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *boun
     __local uint all_held, held[OCC_FLAT_BLOCKS];
     uint item = (uint)get_local_id(0), group = (uint)get_group_id(0);
     uint b = item % OCC_FLAT_BLOCKS, used = (frame->shadows + 31u) / 32u;
-    __global const occ_shadow *shadows = FRAME_SHADOWS(frame);
+    __global const occ_shadow *shadows = OCC_FRAME_SHADOWS(frame);
     if (group == 0 && item < OCC_COUNTS) counts[(frame->counts ^ 1u) * OCC_COUNTS + item] = 0u;
     for (uint w = (uint)get_global_id(0); w < words; w += (uint)get_global_size(0))
         mask[w] = 0u;
@@ -255,7 +255,7 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
     __local uint word[2], visible, left, place, seen[OCC_FLAT_ROWS];
     uint item = (uint)get_local_id(0), o = item % OCC_FLAT_ROWS, quarter = item / OCC_FLAT_ROWS;
     __global uint *count = counts + frame->counts * OCC_COUNTS;
-    __global const occ_shadow *shadows = FRAME_SHADOWS(frame);
+    __global const occ_shadow *shadows = OCC_FRAME_SHADOWS(frame);
     uint blocks = count[OCC_COUNT_OPEN];
     for (uint k = (uint)get_group_id(0); k < blocks; k += (uint)get_num_groups(0)) {
         uint block = open[k], state = states[block], row = block * OCC_FLAT_ROWS + o;
@@ -267,7 +267,7 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
         if (item == 0) visible = left = 0u;
         barrier(CLK_LOCAL_MEM_FENCE);
         if (row < rows) {
-            load_row(&box, boxes, stride, row, &frame->eye);
+            occ_flat_row(&box, boxes, stride, row, &frame->eye);
             uint known = ask_object(&box, &frame->eye, planes, shadows, list, listed, row, quarter);
             if (known) atomic_or(&seen[o], known);
         }
@@ -316,8 +316,8 @@ __kernel void occ_flat_fuse(__global const occ_flat_frame *frame, __global const
     for (uint i = (uint)get_global_id(0); i < objects; i += (uint)get_global_size(0)) {
         uint row = unresolved[i], block = row / OCC_FLAT_ROWS, state = states[block];
         occ_relative_box box;
-        load_row(&box, boxes, stride, row, &frame->eye);
-        if (occ_box_fused(&box, &frame->eye, state >> 8, FRAME_SHADOWS(frame),
+        occ_flat_row(&box, boxes, stride, row, &frame->eye);
+        if (occ_box_fused(&box, &frame->eye, state >> 8, OCC_FRAME_SHADOWS(frame),
                           lists + (size_t)block * OCC_FLAT_LIST, state & 0xffu, row)) {
             continue;
         }

@@ -156,21 +156,19 @@ OCC_FN occ_u32 occ_flat_object(const occ_relative_box *box, OCC_GLOBAL const occ
     return OCC_UNRESOLVED;
 }
 
-#ifdef __OPENCL_C_VERSION__
-#define FRAME_SHADOWS(frame) ((__global const occ_shadow *)((frame) + 1))
+#define OCC_FRAME_SHADOWS(frame) ((OCC_GLOBAL const occ_shadow *)((frame) + 1))
 
-inline void load_row(occ_relative_box *box, __global const float *boxes, uint stride, uint row,
-                     __global const occ_eye *eye)
+// A row of a table, relative to the eye.
+OCC_FN void occ_flat_row(occ_relative_box *box, OCC_GLOBAL const float *boxes, occ_u32 stride,
+                         occ_u32 row, OCC_GLOBAL const occ_eye *eye)
 {
-    for (uint j = 0; j < 3u; j++) {
+    for (occ_u32 j = 0; j < 3u; j++) {
         float coordinate = boxes[j * (size_t)stride + row];
         box->t[j] = OCC_RELATIVE(coordinate, eye->high[j], eye->low[j]);
     }
-    for (uint k = 0; k < 9u; k++)
+    for (occ_u32 k = 0; k < 9u; k++)
         box->a[k] = boxes[(3u + k) * (size_t)stride + row];
     box->e = occ_box_slack(box, eye->slack_floor);
 }
-
-#endif
 
 #endif

@@ -21,7 +21,7 @@ typedef struct fuse_group {
     occ_outline outline;
 } fuse_group;
 
-inline void copy_piece(__local occ_piece *to, __local const occ_piece *from, uint item)
+OCC_FN void copy_piece(__local occ_piece *to, __local const occ_piece *from, uint item)
 {
     if (to == from) return;
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -36,7 +36,7 @@ inline void copy_piece(__local occ_piece *to, __local const occ_piece *from, uin
 // --- cutting -------------------------------------------------------------------------------------
 
 // How far inside the plane each vertex is; every item may ask afterwards.
-inline void measure_piece(__local fuse_group *group, __local const occ_piece *piece,
+OCC_FN void measure_piece(__local fuse_group *group, __local const occ_piece *piece,
                           const occ_cutter *n, uint item)
 {
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -49,7 +49,7 @@ inline void measure_piece(__local fuse_group *group, __local const occ_piece *pi
 
 // Bit i: vertex i is more than `least` inside. (A loop of a fixed length, so that the loads of all
 // rounds are under way at once.)
-inline uint vertices_inside(__local const fuse_group *group, uint count, float least)
+OCC_FN uint vertices_inside(__local const fuse_group *group, uint count, float least)
 {
     uint inside = 0;
 #pragma unroll
@@ -58,14 +58,14 @@ inline uint vertices_inside(__local const fuse_group *group, uint count, float l
     return inside;
 }
 
-inline uint lowest_bit(uint bits)
+OCC_FN uint lowest_bit(uint bits)
 {
     return 31u - clz(bits & (0u - bits));
 }
 
 // Items 0 and 1 find where the outline crosses, between the vertices before `first` and `last` and
 // those.
-inline void cross_edges(__local fuse_group *group, __local const occ_piece *piece, uint first,
+OCC_FN void cross_edges(__local fuse_group *group, __local const occ_piece *piece, uint first,
                         uint last, const occ_cutter *n, uint item)
 {
     if (item == 0) group->failed = 0;
@@ -85,7 +85,7 @@ inline void cross_edges(__local fuse_group *group, __local const occ_piece *piec
 }
 
 // Vertex `item` of a part: `run` vertices from `first` on, then cut `a` and the other one.
-inline occ_vertex part_vertex(__local const fuse_group *group, __local const occ_piece *piece,
+OCC_FN occ_vertex part_vertex(__local const fuse_group *group, __local const occ_piece *piece,
                               uint item, uint first, uint run, uint a)
 {
     uint i = first + item;
@@ -94,7 +94,7 @@ inline occ_vertex part_vertex(__local const fuse_group *group, __local const occ
 }
 
 // Both parts of a piece that has been found to be cut; `inside` may be the piece itself.
-inline void part_piece(__local const fuse_group *group, __local const occ_piece *piece, uint first,
+OCC_FN void part_piece(__local const fuse_group *group, __local const occ_piece *piece, uint first,
                        uint last, uint in, __local occ_piece *inside, __local occ_piece *outside,
                        uint item)
 {
@@ -114,7 +114,7 @@ inline void part_piece(__local const fuse_group *group, __local const occ_piece 
 }
 
 // As occ_piece_cut(), of a piece that has been measured.
-inline uint cut_piece(__local fuse_group *group, __local const occ_piece *piece,
+OCC_FN uint cut_piece(__local fuse_group *group, __local const occ_piece *piece,
                       const occ_cutter *n, __local occ_piece *inside, __local occ_piece *outside,
                       uint item)
 {
@@ -135,7 +135,7 @@ inline uint cut_piece(__local fuse_group *group, __local const occ_piece *piece,
 }
 
 // As occ_piece_halve(), for both halves of the piece in hand.
-inline void halve_piece(__local fuse_group *group, uint depth, uint item)
+OCC_FN void halve_piece(__local fuse_group *group, uint depth, uint item)
 {
     uint vertices = OCC_PIECE_VERTICES / 2u + 1u, which = item / vertices, i = item % vertices;
     if (which < 2u) {
@@ -152,7 +152,7 @@ inline void halve_piece(__local fuse_group *group, uint depth, uint item)
 // --- candidates ----------------------------------------------------------------------------------
 
 // What there is to know of the block's candidates, once for an object.
-inline void consider_all(__local fuse_group *group, const occ_relative_box *box,
+OCC_FN void consider_all(__local fuse_group *group, const occ_relative_box *box,
                          __global const occ_shadow *shadows, __global const uint *list, uint count,
                          uint row, uint item)
 {
@@ -174,7 +174,7 @@ inline void consider_all(__local fuse_group *group, const occ_relative_box *box,
 
 // As occ_fusion_find(), which goes through the list in order: *faces is only of what comes before
 // the one that is found.
-inline uint find_candidate(__local fuse_group *group, __local const occ_piece *top,
+OCC_FN uint find_candidate(__local fuse_group *group, __local const occ_piece *top,
                            __global const occ_shadow *shadows, __global const uint *list,
                            uint count, float object, int by_faces, int *faces, uint item)
 {
@@ -206,7 +206,7 @@ inline uint find_candidate(__local fuse_group *group, __local const occ_piece *t
 // --- the object ----------------------------------------------------------------------------------
 
 // Which planes of a shadow not all of the piece in hand is inside of, for certain.
-inline uint cutting_planes(__local fuse_group *group, __global const occ_shadow *shadow,
+OCC_FN uint cutting_planes(__local fuse_group *group, __global const occ_shadow *shadow,
                            float object, uint item)
 {
     uint count = group->piece.count;
@@ -226,7 +226,7 @@ inline uint cutting_planes(__local fuse_group *group, __global const occ_shadow 
 }
 
 // As occ_fusion_subtract(). Returns the new depth, or OCC_FLAT_OUTSIDE if that cannot be done.
-inline uint subtract(__local fuse_group *group, uint depth, __global const occ_shadow *shadow,
+OCC_FN uint subtract(__local fuse_group *group, uint depth, __global const occ_shadow *shadow,
                      float object, uint item)
 {
     copy_piece(&group->piece, &group->stack[--depth], item);
@@ -249,7 +249,7 @@ inline uint subtract(__local fuse_group *group, uint depth, __global const occ_s
 }
 
 // As occ_fusion_clip(). Returns the new depth.
-inline uint clip_pieces(__local fuse_group *group, uint depth, __global const occ_eye *eye,
+OCC_FN uint clip_pieces(__local fuse_group *group, uint depth, __global const occ_eye *eye,
                         uint mask, float object, uint item)
 {
     for (uint p = 0; p < OCC_SIDE_PLANES; p++) {
@@ -270,7 +270,7 @@ inline uint clip_pieces(__local fuse_group *group, uint depth, __global const oc
 }
 
 // Puts the outline, or the faces, on the stack. Returns the depth, or 0 if that cannot be.
-inline uint see_outline(__local fuse_group *group, const occ_relative_box *box,
+OCC_FN uint see_outline(__local fuse_group *group, const occ_relative_box *box,
                         __global const occ_eye *eye, int by_faces, uint item)
 {
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -301,7 +301,7 @@ inline uint see_outline(__local fuse_group *group, const occ_relative_box *box,
 }
 
 // As occ_fusion_covers(), from the outline on. *faces: as in fusion.h.
-inline int covers(__local fuse_group *group, const occ_relative_box *box,
+OCC_FN int covers(__local fuse_group *group, const occ_relative_box *box,
                   __global const occ_eye *eye, uint mask, __global const occ_shadow *shadows,
                   __global const uint *list, uint count, int by_faces, int *faces, uint item)
 {
@@ -319,7 +319,7 @@ inline int covers(__local fuse_group *group, const occ_relative_box *box,
 }
 
 // As occ_box_fused(), for what occ_flat_object() has left unresolved.
-inline int group_fuses(__local fuse_group *group, const occ_relative_box *box,
+OCC_FN int group_fuses(__local fuse_group *group, const occ_relative_box *box,
                        __global const occ_eye *eye, uint mask, __global const occ_shadow *shadows,
                        __global const uint *list, uint count, uint row, uint item)
 {
@@ -342,8 +342,8 @@ occ_flat_fuse_group(__global const occ_flat_frame *frame, __global const float *
     for (uint i = (uint)get_group_id(0); i < objects; i += (uint)get_num_groups(0)) {
         uint row = unresolved[i], block = row / OCC_FLAT_ROWS, state = states[block];
         occ_relative_box box;
-        load_row(&box, boxes, stride, row, &frame->eye);
-        int hidden = group_fuses(&group, &box, &frame->eye, state >> 8, FRAME_SHADOWS(frame),
+        occ_flat_row(&box, boxes, stride, row, &frame->eye);
+        int hidden = group_fuses(&group, &box, &frame->eye, state >> 8, OCC_FRAME_SHADOWS(frame),
                                  lists + (size_t)block * OCC_FLAT_LIST, state & 0xffu, row, item);
         if (!hidden && item == 0) {
             uint slot = arranged ? slot_of[row] : row;
