@@ -267,7 +267,7 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
         if (item == 0) visible = left = 0u;
         barrier(CLK_LOCAL_MEM_FENCE);
         if (row < rows) {
-            occ_flat_row(&box, boxes, stride, row, &frame->eye);
+            occ_row_relative(&box, boxes, stride, row, &frame->eye);
             uint known = ask_object(&box, &frame->eye, planes, shadows, list, listed, row, quarter);
             if (known) atomic_or(&seen[o], known);
         }
@@ -316,7 +316,7 @@ __kernel void occ_flat_fuse(__global const occ_flat_frame *frame, __global const
     for (uint i = (uint)get_global_id(0); i < objects; i += (uint)get_global_size(0)) {
         uint row = unresolved[i], block = row / OCC_FLAT_ROWS, state = states[block];
         occ_relative_box box;
-        occ_flat_row(&box, boxes, stride, row, &frame->eye);
+        occ_row_relative(&box, boxes, stride, row, &frame->eye);
         if (occ_box_fused(&box, &frame->eye, state >> 8, OCC_FRAME_SHADOWS(frame),
                           lists + (size_t)block * OCC_FLAT_LIST, state & 0xffu, row)) {
             continue;

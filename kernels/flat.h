@@ -158,17 +158,4 @@ OCC_FN occ_u32 occ_flat_object(const occ_relative_box *box, OCC_GLOBAL const occ
 
 #define OCC_FRAME_SHADOWS(frame) ((OCC_GLOBAL const occ_shadow *)((frame) + 1))
 
-// A row of a table, relative to the eye.
-OCC_FN void occ_flat_row(occ_relative_box *box, OCC_GLOBAL const float *boxes, occ_u32 stride,
-                         occ_u32 row, OCC_GLOBAL const occ_eye *eye)
-{
-    for (occ_u32 j = 0; j < 3u; j++) {
-        float coordinate = boxes[j * (size_t)stride + row];
-        box->t[j] = OCC_RELATIVE(coordinate, eye->high[j], eye->low[j]);
-    }
-    for (occ_u32 k = 0; k < 9u; k++)
-        box->a[k] = boxes[(3u + k) * (size_t)stride + row];
-    box->e = occ_box_slack(box, eye->slack_floor);
-}
-
 #endif

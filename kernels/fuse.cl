@@ -342,7 +342,7 @@ occ_flat_fuse_group(__global const occ_flat_frame *frame, __global const float *
     for (uint i = (uint)get_group_id(0); i < objects; i += (uint)get_num_groups(0)) {
         uint row = unresolved[i], block = row / OCC_FLAT_ROWS, state = states[block];
         occ_relative_box box;
-        occ_flat_row(&box, boxes, stride, row, &frame->eye);
+        occ_row_relative(&box, boxes, stride, row, &frame->eye);
         int hidden = group_fuses(&group, &box, &frame->eye, state >> 8, OCC_FRAME_SHADOWS(frame),
                                  lists + (size_t)block * OCC_FLAT_LIST, state & 0xffu, row, item);
         if (!hidden && item == 0) {

@@ -195,6 +195,37 @@ occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ
     return result;
 }
 
+void occ_cl_unpin(const occ_cl_device *device, occ_cl_pinned *pinned)
+{
+    if (pinned->data) {
+        (void)clEnqueueUnmapMemObject(device->queue, pinned->memory, pinned->data, 0, NULL, NULL);
+        (void)clFinish(device->queue);
+    }
+    if (pinned->memory) (void)clReleaseMemObject(pinned->memory);
+    *pinned = (occ_cl_pinned){NULL, NULL, 0};
+}
+
+occ_result occ_cl_pin(const occ_cl_device *device, const occ_hooks *hooks, occ_cl_pinned *pinned,
+                      size_t bytes)
+{
+    if (pinned->bytes >= bytes) return OCC_SUCCESS;
+    occ_cl_unpin(device, pinned);
+    cl_int error;
+    cl_mem_flags flags = CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR;
+    cl_mem memory = clCreateBuffer(device->context, flags, bytes, NULL, &error);
+    if (error) return occ_cl_fail(hooks, error, "clCreateBuffer");
+    pinned->memory = memory;
+    void *data = clEnqueueMapBuffer(device->queue, memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0,
+                                    bytes, 0, NULL, NULL, &error);
+    if (error) {
+        occ_cl_unpin(device, pinned);
+        return occ_cl_fail(hooks, error, "clEnqueueMapBuffer");
+    }
+    pinned->data = data;
+    pinned->bytes = bytes;
+    return OCC_SUCCESS;
+}
+
 void occ_cl_device_close(occ_cl_device *device)
 {
     if (device->program) (void)clReleaseProgram(device->program);

@@ -28,6 +28,18 @@ occ_result occ_cl_device_build(occ_cl_device *device, occ_hooks *hooks, const ch
 occ_result occ_cl_kernel(const occ_cl_device *device, const occ_hooks *hooks, const char *name,
                          size_t group, cl_kernel *kernel);
 
+// Host memory that transfers run from at full speed.
+typedef struct occ_cl_pinned {
+    cl_mem memory;
+    void *data;
+    size_t bytes;
+} occ_cl_pinned;
+
+// Makes sure that there are so many bytes; what was there is lost if there were fewer. Blocks then.
+occ_result occ_cl_pin(const occ_cl_device *device, const occ_hooks *hooks, occ_cl_pinned *pinned,
+                      size_t bytes);
+void occ_cl_unpin(const occ_cl_device *device, occ_cl_pinned *pinned);
+
 void occ_cl_device_close(occ_cl_device *device);
 
 // The device of an OpenCL backend, or NULL if it is another.

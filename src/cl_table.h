@@ -77,13 +77,6 @@ typedef struct occ_table_part {
     cl_event sent[OCC_FRAMES];
 } occ_table_part;
 
-// Host memory that transfers run from at full speed.
-typedef struct occ_cl_pinned {
-    cl_mem memory;
-    void *data;
-    size_t bytes;
-} occ_cl_pinned;
-
 // Boxes on their way out of pinned memory.
 typedef struct occ_cl_stage {
     occ_cl_pinned pinned;

@@ -41,36 +41,16 @@ occ_result occ_table_launch(const occ_cl_table *table, occ_table_part *part, int
 
 void occ_table_unpin(occ_cl_table *table, occ_cl_pinned *pinned)
 {
-    cl_command_queue queue = table->engines[0].device.queue;
-    if (pinned->data) {
-        (void)clEnqueueUnmapMemObject(queue, pinned->memory, pinned->data, 0, NULL, NULL);
-        (void)clFinish(queue);
-    }
-    if (pinned->memory) (void)clReleaseMemObject(pinned->memory);
     table->stats.pinned_bytes -= pinned->bytes;
-    *pinned = (occ_cl_pinned){NULL, NULL, 0};
+    occ_cl_unpin(&table->engines[0].device, pinned);
 }
 
 occ_result occ_table_pin(occ_cl_table *table, occ_cl_pinned *pinned, size_t bytes)
 {
-    if (pinned->bytes >= bytes) return OCC_SUCCESS;
-    occ_table_unpin(table, pinned);
-    const occ_cl_device *device = &table->engines[0].device;
-    cl_int error;
-    cl_mem_flags flags = CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR;
-    cl_mem memory = clCreateBuffer(device->context, flags, bytes, NULL, &error);
-    if (error) return occ_cl_fail(&table->hooks, error, "clCreateBuffer");
-    pinned->memory = memory;
-    pinned->bytes = bytes;
-    table->stats.pinned_bytes += bytes;
-    void *data = clEnqueueMapBuffer(device->queue, memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0,
-                                    bytes, 0, NULL, NULL, &error);
-    if (error) {
-        occ_table_unpin(table, pinned);
-        return occ_cl_fail(&table->hooks, error, "clEnqueueMapBuffer");
-    }
-    pinned->data = data;
-    return OCC_SUCCESS;
+    table->stats.pinned_bytes -= pinned->bytes;
+    occ_result result = occ_cl_pin(&table->engines[0].device, &table->hooks, pinned, bytes);
+    table->stats.pinned_bytes += pinned->bytes;
+    return result;
 }
 
 occ_result occ_table_buffer(occ_cl_table *table, occ_table_part *part, int which, size_t bytes)

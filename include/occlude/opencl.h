@@ -11,11 +11,20 @@
 
 #include "cull.h"
 
-/// Which device a view works on. All zero: the first GPU of any platform, else the first device.
+/// How work is laid out on a device. Speaks of speed alone: masks are the same bits.
+typedef enum occ_cl_shape {
+    OCC_CL_SHAPE_AUTO = 0,   ///< By the device's class: narrow on a CPU, wide on all else.
+    OCC_CL_SHAPE_NARROW = 1, ///< Few, long work-groups; an object is cut up by one item.
+    OCC_CL_SHAPE_WIDE = 2    ///< Many short ones; in a table 32 items cut up an object together.
+} occ_cl_shape;
+
+/// Which device a view works on, and how. All zero: the first GPU of any platform, else the first
+/// device.
 typedef struct occ_cl_desc {
     cl_device_id device;    ///< Default: chosen as said above, or the queue's if a queue is given.
     cl_context context;     ///< Default: one of our own for `device`. Retained.
     cl_command_queue queue; ///< In order, of `context`. Default: one of our own. Retained.
+    occ_cl_shape shape;     ///< Default: automatic.
 } occ_cl_desc;
 
 /// Makes a view whose objects are tested on an OpenCL device. `view_desc` may be NULL; its backend
@@ -41,13 +50,6 @@ OCC_API cl_device_id occ_cl_view_device(const occ_view *view);
 /// them.
 typedef struct occ_cl_table occ_cl_table;
 
-/// How work is laid out on a device.
-typedef enum occ_cl_shape {
-    OCC_CL_SHAPE_AUTO = 0,   ///< By the device's class: narrow on a CPU, wide on all else.
-    OCC_CL_SHAPE_NARROW = 1, ///< Few, long work-groups; an object is cut up by one item.
-    OCC_CL_SHAPE_WIDE = 2    ///< Many work-groups; an object is cut up by 32 items together.
-} occ_cl_shape;
-
 /// How a table is made. All zero but the capacity is a good default.
 typedef struct occ_cl_table_desc {
     occ_allocator allocator; ///< Default: the C library.
@@ -59,7 +61,7 @@ typedef struct occ_cl_table_desc {
     /// would choose.
     const cl_command_queue *queues;
     uint32_t queue_count;
-    occ_cl_shape shape; ///< Default: automatic. Speaks of speed alone: masks are the same bits.
+    occ_cl_shape shape; ///< Default: automatic.
 } occ_cl_table_desc;
 
 /// Makes a table. `*table` is NULL on failure; OCC_ERROR_OUT_OF_MEMORY if the boxes do not fit on
