@@ -206,11 +206,11 @@ inline int side_cut(side_piece *piece, const occ_cutter *n, side_piece *outside)
     if (in == all) return OCC_CUT_INSIDE;
     uint before = (in << 1 | in >> (count - 1u)) & all; // bit i: vertex i - 1 is inside
     uint enters = in & ~before, leaves = before & ~in;
-    if (piece->cuts == OCC_PIECE_CUTS || count == OCC_PIECE_VERTICES || (enters & (enters - 1u))) {
+    uint first = lowest_of(enters), last = lowest_of(leaves);
+    if (piece->cuts == OCC_PIECE_CUTS || count == OCC_PIECE_VERTICES || enters >> first != 1u) {
         return OCC_CUT_FAILED;
     }
     vstore8(value, 0, at);
-    uint first = lowest_of(enters), last = lowest_of(leaves);
     occ_vertex c, d;
     if (!side_between(piece, at, first, (first ? first : count) - 1u, n, &c) ||
         !side_between(piece, at, (last ? last : count) - 1u, last, n, &d)) {

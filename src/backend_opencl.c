@@ -245,7 +245,6 @@ static void destroy(occ_tester *base)
 
 static const occ_backend_ops opencl_ops = {"opencl", upload, test, NULL, read_verdicts, destroy};
 
-// A CPU's items have vectors of their own, and nothing to gain from neighbours.
 static occ_result open_kernel(opencl_backend *backend, occ_cl_shape shape)
 {
     static const char *const wide[] = {"test.cl", NULL}, *const narrow[] = {"sides.cl", "range.cl",
@@ -253,7 +252,7 @@ static occ_result open_kernel(opencl_backend *backend, occ_cl_shape shape)
     occ_cl_device *device = &backend->device;
     occ_hooks *hooks = backend->base.hooks;
     backend->wide = shape == OCC_CL_SHAPE_WIDE;
-    if (shape == OCC_CL_SHAPE_AUTO) backend->wide = !(device->type & CL_DEVICE_TYPE_CPU);
+    if (shape == OCC_CL_SHAPE_AUTO) backend->wide = !occ_cl_is_cpu(device);
     occ_result result = occ_cl_device_build(device, hooks, backend->wide ? wide : narrow);
     if (result) return result;
     return occ_cl_kernel(device, hooks, backend->wide ? "occ_test" : "occ_test_range",

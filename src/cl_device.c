@@ -195,6 +195,11 @@ occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ
     return result;
 }
 
+bool occ_cl_is_cpu(const occ_cl_device *device)
+{
+    return (device->type & (CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU)) == CL_DEVICE_TYPE_CPU;
+}
+
 void occ_cl_unpin(const occ_cl_device *device, occ_cl_pinned *pinned)
 {
     if (pinned->data) {

@@ -42,6 +42,9 @@ void occ_cl_unpin(const occ_cl_device *device, occ_cl_pinned *pinned);
 
 void occ_cl_device_close(occ_cl_device *device);
 
+// A CPU and nothing else: its items have vectors of their own, and little to gain from neighbours.
+bool occ_cl_is_cpu(const occ_cl_device *device);
+
 // The device of an OpenCL backend, or NULL if it is another.
 cl_device_id occ_backend_opencl_device(const occ_tester *backend);
 

@@ -17,7 +17,7 @@ static const size_t kernel_items[OCC_KERNELS] = {64, 256, 256, 256, 1, 256, 256,
 static void tune(occ_cl_engine *engine, occ_cl_shape shape)
 {
     bool wide = shape == OCC_CL_SHAPE_WIDE;
-    if (shape == OCC_CL_SHAPE_AUTO) wide = !(engine->device.type & CL_DEVICE_TYPE_CPU);
+    if (shape == OCC_CL_SHAPE_AUTO) wide = !occ_cl_is_cpu(&engine->device);
     size_t units = engine->device.units ? engine->device.units : 1;
     engine->busy = units * (wide ? 32 : 8);
     engine->fusion_items = wide ? 32 : 1;
@@ -41,7 +41,7 @@ static occ_result open_copies(const occ_cl_table *table, occ_cl_engine *engine)
 {
     const occ_cl_device *device = &engine->device;
     cl_int error = CL_SUCCESS;
-    if (device->type & CL_DEVICE_TYPE_CPU) {
+    if (occ_cl_is_cpu(device)) {
         error = clRetainCommandQueue(device->queue);
         if (error) return occ_cl_fail(&table->hooks, error, "clRetainCommandQueue");
         engine->copies = device->queue;

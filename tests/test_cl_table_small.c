@@ -2,7 +2,7 @@
 // labels: unit opencl
 // oclgrind: yes
 // A table's kernels on a crowd that is small enough for oclgrind, which interprets them: both
-// shapes, all outputs, and rows in another order than their slots.
+// shapes, all outputs, and rows in another order than their slots. And a view's kernel for CPUs.
 #define _POSIX_C_SOURCE 200809L
 
 #include "kit_table.h"
@@ -41,6 +41,32 @@ START_TEST(small_crowd_is_culled_as_in_plain_c)
 }
 END_TEST
 
+// And a view's, by ranges.
+START_TEST(small_crowd_is_seen_as_in_plain_c)
+{
+    obs_scene file;
+    ck_assert(scenes_make(_i ? "city" : "forest", 80, 2, &file));
+    occ_scene *scene = kit_obs_scene(&file, NULL, NULL, NULL);
+    occ_view_desc desc = {.backend = OCC_BACKEND_PLAIN};
+    occ_cl_desc narrow = {.shape = OCC_CL_SHAPE_NARROW};
+    occ_cull_desc knobs = {.min_area = 1e-5f, .grain = 1000};
+    occ_view *plain, *device;
+    ck_assert_int_eq(occ_view_create(&desc, &plain), OCC_SUCCESS);
+    ck_assert_int_eq(occ_cl_view_create(NULL, &narrow, &device), OCC_SUCCESS);
+    for (uint32_t f = 10; f < 60; f += 25) {
+        double eye[3];
+        occ_camera_desc camera = kit_obs_camera(&file.frames[f], eye);
+        kit_cull(plain, scene, &camera, &knobs);
+        kit_cull(device, scene, &camera, &knobs);
+        KIT_CHECK(kit_same_masks(plain, device), "another mask in frame %u", f);
+    }
+    occ_view_destroy(plain);
+    occ_view_destroy(device);
+    occ_scene_destroy(scene);
+    obs_free(&file);
+}
+END_TEST
+
 int main(void)
 {
     // oclgrind 21.10 takes what one kernel has written for uninitialised in the next.
@@ -50,6 +76,7 @@ int main(void)
     Suite *suite = suite_create("cl_table_small");
     TCase *crowds = tcase_create("crowds");
     tcase_add_loop_test(crowds, small_crowd_is_culled_as_in_plain_c, 0, 4);
+    tcase_add_loop_test(crowds, small_crowd_is_seen_as_in_plain_c, 0, 2);
     suite_add_tcase(suite, crowds);
     return test_run_suite(suite);
 }
