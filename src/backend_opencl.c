@@ -31,6 +31,7 @@ typedef struct opencl_backend {
     uint64_t scene;       // whose boxes are on the device, 0: nobody's
     uint64_t revision;    // as of which commit
     uint32_t stride;
+    bool sending; // boxes, that nobody has waited for
 } opencl_backend;
 
 static occ_result grow(opencl_backend *backend, int which, size_t bytes)
@@ -105,6 +106,7 @@ static occ_result send_changes(opencl_backend *backend, const occ_scene *scene)
 static occ_result give_up(opencl_backend *backend, occ_result result)
 {
     backend->scene = 0; // what is on the device is in doubt
+    backend->sending = false;
     (void)clFinish(backend->device.queue);
     return result;
 }
@@ -122,6 +124,9 @@ static occ_result upload(occ_tester *base, const occ_scene *scene)
         result = send(backend, BOXES, boxes->data, COLUMN_BYTES(boxes) * OCC_BOX_COLUMNS);
     }
     if (result) return give_up(backend, result);
+    backend->sending = true;
+    cl_int error = clFlush(backend->device.queue); // the walk goes on meanwhile
+    if (error) return give_up(backend, occ_cl_fail(base->hooks, error, "clFlush"));
     backend->scene = scene->id;
     backend->revision = scene->revision;
     backend->stride = boxes->stride;
@@ -224,11 +229,19 @@ static occ_result test(occ_tester *base, const occ_test_job *job)
 static occ_result read_verdicts(occ_tester *base, const occ_test_job *job)
 {
     opencl_backend *backend = (opencl_backend *)base;
-    cl_int error =
-        clEnqueueReadBuffer(backend->device.queue, backend->array[VERDICTS].memory, CL_TRUE, 0,
-                            job->range_count * sizeof *job->verdicts, job->verdicts, 0, NULL, NULL);
-    if (!error) return OCC_SUCCESS;
-    return give_up(backend, occ_cl_fail(base->hooks, error, "clEnqueueReadBuffer"));
+    const char *call = "clFinish";
+    cl_int error = CL_SUCCESS;
+    if (job->range_count) {
+        call = "clEnqueueReadBuffer";
+        error = clEnqueueReadBuffer(backend->device.queue, backend->array[VERDICTS].memory, CL_TRUE,
+                                    0, job->range_count * sizeof *job->verdicts, job->verdicts, 0,
+                                    NULL, NULL);
+    } else if (backend->sending) {
+        error = clFinish(backend->device.queue);
+    }
+    if (error) return give_up(backend, occ_cl_fail(base->hooks, error, call));
+    backend->sending = false;
+    return OCC_SUCCESS;
 }
 
 static void destroy(occ_tester *base)
