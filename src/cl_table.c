@@ -4,7 +4,8 @@
 
 #include "log.h"
 
-#define MOST_SLOTS 0x80000000u
+#define MOST_SLOTS     0x80000000u
+#define DEFAULT_STRIPS 1u
 
 static const char *const kernel_names[OCC_KERNELS] = {
     "occ_flat_unpack", "occ_flat_bounds", "occ_flat_blocks", "occ_flat_objects", "occ_flat_fuse",
@@ -129,6 +130,10 @@ static occ_result check(const occ_hooks *hooks, const occ_cl_table_desc *desc)
         return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no shape %d",
                         (int)desc->shape);
     }
+    if (desc->strips > OCC_MOST_STRIPS) {
+        return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "%u strips, at most %u", desc->strips,
+                        OCC_MOST_STRIPS);
+    }
     if (!desc->queues) return OCC_SUCCESS;
     if (!desc->queue_count || desc->queue_count > OCC_MOST_QUEUES) {
         return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "%u queues, from 1 to %u are taken",
@@ -168,7 +173,9 @@ occ_result occ_cl_table_create(const occ_cl_table_desc *desc, occ_cl_table **tab
     if (!made) return occ_fail(&hooks, OCC_ERROR_OUT_OF_MEMORY, "no memory for a table");
     *made = (occ_cl_table){.hooks = hooks, .capacity = desc->capacity};
     occ_frame_init(&made->frame, &made->hooks, occ_lanes_choose());
-    result = open_engines(made, desc);
+    result = occ_strips_open(&made->strips, &made->hooks, occ_lanes_choose(),
+                             desc->strips ? desc->strips : DEFAULT_STRIPS);
+    if (!result) result = open_engines(made, desc);
     if (!result) result = open_stages(made);
     if (!result) result = occ_table_open_parts(made);
     if (result) {
@@ -204,6 +211,7 @@ void occ_cl_table_destroy(occ_cl_table *table)
         close_engine(&table->engines[e]);
     occ_free(&table->hooks, table->engines, table->engine_count * sizeof *table->engines);
     occ_free(&table->hooks, table->row_of, (size_t)table->capacity * sizeof *table->row_of);
+    occ_strips_close(&table->strips);
     occ_frame_free(&table->frame);
     occ_hooks hooks = table->hooks;
     occ_free(&hooks, table, sizeof *table);

@@ -7,7 +7,7 @@
 
 #include "cl_device.h"
 #include "flat.h"
-#include "frame.h"
+#include "strips.h"
 
 #define OCC_GROUP_ROWS   (OCC_FLAT_ROWS * OCC_FLAT_BLOCKS)
 #define OCC_STAGED_BOXES (256u * 1024u) // that travel at a time
@@ -95,8 +95,9 @@ struct occ_cl_table {
     occ_cl_stage stages[2];
     uint32_t stage; // whose turn it is
     occ_cl_pinned masks, heads;
-    occ_frame frame; // the walk's
-    uint32_t frames; // so far
+    occ_frame frame;   // the occluders chosen
+    occ_strips strips; // by whom
+    uint32_t frames;   // so far
     uint32_t outputs;
     occ_cl_table_stats stats;
 };

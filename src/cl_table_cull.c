@@ -45,7 +45,7 @@ static occ_result choose_occluders(occ_cl_table *table, const occ_scene *scene)
     occ_occluders_clear(frame);
     if (!scene || frame->knobs.method == OCC_METHOD_FRUSTUM) return OCC_SUCCESS;
     frame->scene = scene;
-    occ_result result = occ_walk(frame);
+    occ_result result = occ_strips_choose(&table->strips, frame);
     frame->scene = NULL;
     if (result) return occ_fail(&table->hooks, result, "no memory for the walk");
     return OCC_SUCCESS;

@@ -4,9 +4,9 @@
 #include "flat.h"
 
 #include "boxes.h"
-#include "frame.h"
 #include "knobs.h"
 #include "octree.h"
+#include "strips.h"
 
 #include <stdlib.h>
 
@@ -121,7 +121,11 @@ static void choose(flat_frame *f, const occ_scene *occluders, const uint32_t *ow
     occ_occluders_clear(frame);
     if (!occluders || frame->knobs.method == OCC_METHOD_FRUSTUM) return;
     frame->scene = occluders;
-    ck_assert_int_eq(occ_walk(frame), OCC_SUCCESS);
+    static occ_strips strips;
+    uint32_t count = table->strips ? table->strips : 1;
+    ck_assert_int_eq(occ_strips_open(&strips, frame->hooks, frame->lanes, count), OCC_SUCCESS);
+    ck_assert_int_eq(occ_strips_choose(&strips, frame), OCC_SUCCESS);
+    occ_strips_close(&strips);
     const occ_occluder *sources = frame->sources.data;
     f->shadows = frame->shadows.data;
     f->count = frame->shadows.count;

@@ -10,6 +10,7 @@ typedef struct kit_flat {
     const occ_box *boxes; // slot by slot
     uint32_t count;
     const uint32_t *slot_of;
+    uint32_t strips; // as in occ_cl_table_desc
 } kit_flat;
 
 // What a frame came to.

@@ -89,6 +89,25 @@ START_TEST(every_size_of_the_last_block_is_tested_whole)
 }
 END_TEST
 
+START_TEST(strips_choose_for_a_device_as_for_plain_c)
+{
+    kit_crowd crowd = kit_make_crowd("city", 700);
+    uint32_t count = crowd.file.object_count;
+    kit_flat rows = {.boxes = crowd.file.objects, .count = count, .strips = 4};
+    kit_flat_counts sum = {0};
+    occ_cl_table *table = NULL;
+    occ_cl_table_desc desc = {.capacity = count, .strips = 17};
+    ck_assert_int_eq(occ_cl_table_create(&desc, &table), OCC_ERROR_INVALID_ARGUMENT);
+    desc.strips = rows.strips;
+    ck_assert_int_eq(occ_cl_table_create(&desc, &table), OCC_SUCCESS);
+    ck_assert_int_eq(occ_cl_table_write(table, 0, count, rows.boxes), OCC_SUCCESS);
+    compare_path(table, &rows, &crowd, &sum);
+    ck_assert_uint_gt(sum.hidden, 0);
+    occ_cl_table_destroy(table);
+    kit_free_crowd(&crowd);
+}
+END_TEST
+
 // Every word of a hundred thousand objects, on the view's kernel and on the table's.
 START_TEST(frustum_masks_of_a_large_scene_are_plain_cs)
 {
@@ -129,6 +148,7 @@ int main(void)
     tcase_add_loop_test(masks, mask_is_plain_cs_on_every_named_scene, 0, 10);
     tcase_add_loop_test(masks, arranged_table_keeps_its_slots, 0, 4);
     tcase_add_loop_test(masks, every_size_of_the_last_block_is_tested_whole, 0, 11);
+    tcase_add_test(masks, strips_choose_for_a_device_as_for_plain_c);
     tcase_add_test(masks, frustum_masks_of_a_large_scene_are_plain_cs);
     suite_add_tcase(suite, masks);
     return test_run_suite(suite);

@@ -22,6 +22,7 @@ static const char gpu_usage[] =
     "  --arrange          order the objects along an octree's curve first\n"
     "  --move             send all boxes from pinned memory in every frame\n"
     "  --devices N        spread the table over N sub-devices (default 1: the whole device)\n"
+    "  --strips N         of the picture, for choosing occluders by as many threads (default 1)\n"
     "  --preset P         fast, balanced (default) or thorough\n"
     "  --method M         fused (default), single or frustum\n"
     "  --min-area A       smallest solid angle at which an occluder is used\n"
@@ -53,6 +54,7 @@ static int parse_gpu(int argc, char **argv, gpu_arguments *arguments)
         {"--arrange", OPTIONS_FLAG, &settings->arrange},
         {"--move", OPTIONS_FLAG, &settings->move},
         {"--devices", OPTIONS_COUNT, &settings->devices},
+        {"--strips", OPTIONS_COUNT, &settings->strips},
         {"--preset", OPTIONS_TEXT, &arguments->preset},
         {"--method", OPTIONS_TEXT, &arguments->method},
         {"--min-area", OPTIONS_REAL, &arguments->min_area},

@@ -14,6 +14,7 @@ typedef struct gpu_settings {
     uint32_t repeats; ///< Of each frame.
     uint32_t every;   ///< Only each so-many-th frame.
     uint32_t devices; ///< Sub-devices that the table is spread over; 1: the device as it is.
+    uint32_t strips;  // 0: as many as a table has by default
     bool arrange;     ///< Along an octree's curve rather than as the scene has them.
     bool move;        ///< All boxes travel in every frame.
     occ_cull_desc knobs;

@@ -105,7 +105,8 @@ static bool fill_table(gpu_bench *bench)
     occ_cl_table_desc desc = {.logger = {.log = say},
                               .capacity = bench->file->object_count,
                               .queues = bench->queues,
-                              .queue_count = bench->queue_count};
+                              .queue_count = bench->queue_count,
+                              .strips = bench->settings->strips};
     double start = timing_now();
     occ_result result = occ_cl_table_create(&desc, &bench->table);
     if (!result && bench->settings->arrange) {
