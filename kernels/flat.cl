@@ -10,6 +10,7 @@
 
 #define QUARTERS   4u // items to a block of a group, and to an object of a block
 #define FLAT_ITEMS (QUARTERS * 64u)
+#define NEAR_WORDS (OCC_FLAT_LIST / 32u)
 
 // --- boxes in ------------------------------------------------------------------------------------
 
@@ -213,10 +214,11 @@ occ_flat_blocks(__global const occ_flat_frame *frame, __global const float *boun
 #define SEEN_CENTERED 4u
 #define SEEN_SHOWS    8u
 
-// The first part of occ_flat_object(): an item asks every fourth candidate.
+// The first part of occ_flat_object(): an item asks every fourth candidate. `near` gets a bit for
+// each that touches the object: no other holds any of its corners.
 inline uint ask_object(const occ_relative_box *box, __global const occ_eye *eye, uint planes,
                        __global const occ_shadow *shadows, __global const uint *list, uint count,
-                       uint row, uint quarter)
+                       uint row, uint quarter, __local uint *near)
 {
     uint seen = 0;
     int centered = 0;
@@ -225,9 +227,32 @@ inline uint ask_object(const occ_relative_box *box, __global const occ_eye *eye,
     for (uint i = quarter; i < count && !(seen & SEEN_HELD); i += QUARTERS) {
         __global const occ_shadow *shadow = &shadows[list[i]];
         if (shadow->owner == row) continue;
-        if (occ_flat_meet(box, shadow, &centered) == OCC_MEET_HELD) seen |= SEEN_HELD;
+        uint met = occ_flat_meet(box, shadow, &centered);
+        if (met == OCC_MEET_HELD) seen |= SEEN_HELD;
+        if (met == OCC_MEET_TOUCHES) atomic_or(&near[i / 32u], 1u << (i % 32u));
     }
     return centered ? seen | SEEN_CENTERED : seen;
+}
+
+// As occ_box_shows_corners(), of the candidates that touch the object.
+inline int shows_corners(const occ_relative_box *box, __global const occ_eye *eye, uint planes,
+                         __global const occ_shadow *shadows, __global const uint *list,
+                         __local const uint *near, uint first, uint end)
+{
+    for (uint corner = first; corner < end; corner++) {
+        float x, y, z;
+        int held = 0;
+        occ_box_corner(box, corner, &x, &y, &z);
+        if (!occ_point_in_frustum(x, y, z, eye, planes)) continue;
+        for (uint w = 0; w < NEAR_WORDS; w++) {
+            for (uint bits = near[w]; bits && !held; bits &= bits - 1u) {
+                uint i = 32u * w + (31u - clz(bits & (0u - bits)));
+                held = occ_shadow_holds_point(&shadows[list[i]], x, y, z, box->e);
+            }
+        }
+        if (!held) return 1;
+    }
+    return 0;
 }
 
 // The verdict as far as that part goes.
@@ -253,6 +278,7 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
                  __global uint *mask)
 {
     __local uint word[2], visible, left, place, seen[OCC_FLAT_ROWS];
+    __local uint near[OCC_FLAT_ROWS][NEAR_WORDS];
     uint item = (uint)get_local_id(0), o = item % OCC_FLAT_ROWS, quarter = item / OCC_FLAT_ROWS;
     __global uint *count = counts + frame->counts * OCC_COUNTS;
     __global const occ_shadow *shadows = OCC_FRAME_SHADOWS(frame);
@@ -264,11 +290,14 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
         occ_relative_box box;
         if (item < OCC_FLAT_ROWS) seen[item] = row < rows ? 0u : SEEN_OUTSIDE;
         if (item < 2u) word[item] = 0u;
+        for (uint w = quarter; w < NEAR_WORDS; w += QUARTERS)
+            near[o][w] = 0u;
         if (item == 0) visible = left = 0u;
         barrier(CLK_LOCAL_MEM_FENCE);
         if (row < rows) {
             occ_row_relative(&box, boxes, stride, row, &frame->eye);
-            uint known = ask_object(&box, &frame->eye, planes, shadows, list, listed, row, quarter);
+            uint known =
+                ask_object(&box, &frame->eye, planes, shadows, list, listed, row, quarter, near[o]);
             if (known) atomic_or(&seen[o], known);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -276,9 +305,8 @@ occ_flat_objects(__global const occ_flat_frame *frame, __global const float *box
         if (row < rows)
             verdict = judge_object(&box, &frame->eye, planes, seen[o], listed, frame->fused);
         barrier(CLK_LOCAL_MEM_FENCE);
-        if (verdict == OCC_UNRESOLVED &&
-            occ_box_shows_corners(&box, &frame->eye, planes, shadows, list, listed, row,
-                                  2u * quarter, 2u * quarter + 2u)) {
+        if (verdict == OCC_UNRESOLVED && shows_corners(&box, &frame->eye, planes, shadows, list,
+                                                       near[o], 2u * quarter, 2u * quarter + 2u)) {
             atomic_or(&seen[o], SEEN_SHOWS);
         }
         barrier(CLK_LOCAL_MEM_FENCE);

@@ -186,13 +186,12 @@ OCC_FN int occ_shadow_holds_point(OCC_GLOBAL const occ_shadow *shadow, float x, 
 }
 
 // A point of the box that is in the picture and in no shadow is a witness, wherever it is in the
-// box: moving towards the eye leads out of shadows, never into one. Asks corners [first, end).
-OCC_FN int occ_box_shows_corners(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye,
-                                 occ_u32 mask, OCC_GLOBAL const occ_shadow *shadows,
-                                 OCC_GLOBAL const occ_u32 *list, occ_u32 count, occ_u32 row,
-                                 occ_u32 first, occ_u32 end)
+// box: moving towards the eye leads out of shadows, never into one.
+OCC_FN int occ_box_shows_corner(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye,
+                                occ_u32 mask, OCC_GLOBAL const occ_shadow *shadows,
+                                OCC_GLOBAL const occ_u32 *list, occ_u32 count, occ_u32 row)
 {
-    for (occ_u32 corner = first; corner < end; corner++) {
+    for (occ_u32 corner = 0; corner < 8u; corner++) {
         float x, y, z;
         occ_box_corner(box, corner, &x, &y, &z);
         if (!occ_point_in_frustum(x, y, z, eye, mask)) continue;
@@ -204,13 +203,6 @@ OCC_FN int occ_box_shows_corners(const occ_relative_box *box, OCC_GLOBAL const o
         if (i == count) return 1;
     }
     return 0;
-}
-
-OCC_FN int occ_box_shows_corner(const occ_relative_box *box, OCC_GLOBAL const occ_eye *eye,
-                                occ_u32 mask, OCC_GLOBAL const occ_shadow *shadows,
-                                OCC_GLOBAL const occ_u32 *list, occ_u32 count, occ_u32 row)
-{
-    return occ_box_shows_corners(box, eye, mask, shadows, list, count, row, 0, 8u);
 }
 
 // Whether a shadow holds all of the box. *held: one holds its center.
