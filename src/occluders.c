@@ -3,6 +3,7 @@
 #include "frame.h"
 
 #include "shadow.h"
+#include "sheet.h"
 #include "vector.h"
 
 _Static_assert(OCC_NO_SLOT == OCC_NOBODY, "an owner's row is what a shadow knows of it");
@@ -16,7 +17,8 @@ void occ_occluders_prepare(occ_frame *frame)
 {
     const occ_camera *camera = &frame->camera;
     occ_selection *choice = &frame->selection;
-    *choice = (occ_selection){.eye = &camera->constants, .orthographic = camera->orthographic};
+    *choice = (occ_selection){
+        .eye = &camera->constants, .screen = &camera->screen, .orthographic = camera->orthographic};
     choice->least = frame->knobs.min_area;
     choice->scale = 1.0f;
     for (int j = 0; j < 3; j++)
@@ -36,10 +38,29 @@ bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)
     return (double)reach >= (double)frame->knobs.min_area * area;
 }
 
+bool occ_occluder_sheet_is_large(const occ_frame *frame, const occ_sheet *sheet)
+{
+    const occ_camera *camera = &frame->camera;
+    double normal[3], toward[3], distance = 0.0;
+    occ_sheet_normal(sheet, normal);
+    for (int j = 0; j < 3; j++) {
+        double sum = 0.0;
+        for (uint32_t i = 0; i < sheet->corner_count; i++)
+            sum += (double)sheet->corner[i][j];
+        toward[j] = camera->eye[j] - sum / sheet->corner_count;
+        if (camera->orthographic) toward[j] = camera->toward[j];
+        distance += toward[j] * toward[j];
+    }
+    double shown = 0.5 * occ_dot(normal, toward);
+    if (sheet->sides == OCC_SIDES_BOTH) shown = fabs(shown);
+    double unit = camera->orthographic ? camera->view_area : distance;
+    return shown > 0.0 && shown >= (double)frame->selection.least * sqrt(distance) * unit;
+}
+
 // How far outside of its bounds on the screen an occluder's shadow may reach. Projections round by
-// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by less
-// than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) / (w +
-// dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
+// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by
+// less than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) /
+// (w + dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
 static float room_around(const occ_camera *camera, const occ_projection *seen, int j)
 {
     const occ_screen *screen = &camera->screen;
@@ -78,7 +99,10 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
     if (!occ_frame_extend(frame, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
-    if (!occ_shadow_init(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
+    const occ_sheet *sheet = occ_scene_sheet(scene, row);
+    bool hides = sheet ? occ_shadow_of_sheet(shadow, &frame->camera, sheet, owner)
+                       : frame->lanes->shade(shadow, &frame->camera, box, owner);
+    if (!hides) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);
     *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
     if (!lane)
