@@ -63,6 +63,13 @@ static uint32_t place_of(const occ_frame *f, uint32_t index)
     return i;
 }
 
+// (What is beyond the last plane is whatever it is.)
+static bool is_same_shadow(const occ_shadow *a, const occ_shadow *b)
+{
+    return a->planes == b->planes && a->silhouettes == b->silhouettes && a->owner == b->owner &&
+           kit_same_bits(a->plane, b->plane, a->planes * sizeof a->plane[0]);
+}
+
 // Each once, and as the walk over the whole makes it. Returns how many it has that this has not.
 static uint32_t compare_choice(void)
 {
@@ -72,7 +79,7 @@ static uint32_t compare_choice(void)
         uint32_t index = sources_of(&frame)[i].index, other = place_of(&whole, index);
         KIT_CHECK(place_of(&frame, index) == i, "occluder %u is there twice", index);
         if (other == whole.shadows.count) continue; // another occluder hides it, in another strip
-        KIT_CHECK(kit_same_bits(&mine[i], &theirs[other], sizeof *mine), "the shadow of %u", index);
+        KIT_CHECK(is_same_shadow(&mine[i], &theirs[other]), "the shadow of %u", index);
     }
     for (uint32_t i = 0; i < whole.shadows.count; i++)
         lost += place_of(&frame, sources_of(&whole)[i].index) == frame.shadows.count;
@@ -94,7 +101,7 @@ START_TEST(strips_choose_what_one_walk_does_or_more)
     }
     occ_strips_close(&strips);
     ck_assert_uint_gt(chosen, 100);
-    KIT_CHECK(50 * lost <= chosen, "%u of %u are lost", lost, chosen);
+    KIT_CHECK(20 * lost <= chosen, "%u of %u are lost", lost, chosen);
     close_scene();
 }
 END_TEST
@@ -130,7 +137,9 @@ START_TEST(every_run_chooses_the_same_in_the_same_order)
             memcpy(first, frame.shadows.data, count * sizeof *first);
         }
         ck_assert_uint_eq(frame.shadows.count, count);
-        KIT_CHECK(!memcmp(first, frame.shadows.data, count * sizeof *first), "run %u differs", run);
+        for (uint32_t i = 0; i < count; i++)
+            KIT_CHECK(is_same_shadow(&first[i], (const occ_shadow *)frame.shadows.data + i),
+                      "shadow %u differs in run %u", i, run);
     }
     ck_assert_uint_gt(count, 10);
     occ_strips_close(&strips);
