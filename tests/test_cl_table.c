@@ -139,6 +139,37 @@ START_TEST(frustum_masks_of_a_large_scene_are_plain_cs)
 }
 END_TEST
 
+// More candidates than a CPU's item keeps side by side, for all objects as one range.
+START_TEST(long_lists_of_a_view_are_asked_to_their_end)
+{
+    obs_scene file;
+    ck_assert(scenes_make("interior", 20000, 2, &file));
+    occ_scene *scene = kit_obs_scene(&file, NULL, NULL, NULL);
+    occ_view_desc desc = {.backend = OCC_BACKEND_PLAIN};
+    occ_cl_desc shape = {.shape = _i ? OCC_CL_SHAPE_WIDE : OCC_CL_SHAPE_NARROW};
+    occ_cull_desc knobs = {.min_area = 1e-9f, .grain = 1000000};
+    occ_view *plain, *device;
+    occ_view_stats stats;
+    uint32_t longest = 0;
+    ck_assert_int_eq(occ_view_create(&desc, &plain), OCC_SUCCESS);
+    ck_assert_int_eq(occ_cl_view_create(NULL, &shape, &device), OCC_SUCCESS);
+    for (uint32_t f = 0; f < file.frame_count; f += 20) {
+        double eye[3];
+        occ_camera_desc camera = kit_obs_camera(&file.frames[f], eye);
+        kit_cull(plain, scene, &camera, &knobs);
+        kit_cull(device, scene, &camera, &knobs);
+        KIT_CHECK(kit_same_masks(plain, device), "another mask in frame %u", f);
+        ck_assert_int_eq(occ_view_get_stats(device, &stats), OCC_SUCCESS);
+        longest = stats.occluders_used > longest ? stats.occluders_used : longest;
+    }
+    ck_assert_uint_gt(longest, 400);
+    occ_view_destroy(plain);
+    occ_view_destroy(device);
+    occ_scene_destroy(scene);
+    obs_free(&file);
+}
+END_TEST
+
 int main(void)
 {
     int skipped = test_skip_without_device();
@@ -149,6 +180,7 @@ int main(void)
     tcase_add_loop_test(masks, arranged_table_keeps_its_slots, 0, 4);
     tcase_add_loop_test(masks, every_size_of_the_last_block_is_tested_whole, 0, 11);
     tcase_add_test(masks, strips_choose_for_a_device_as_for_plain_c);
+    tcase_add_loop_test(masks, long_lists_of_a_view_are_asked_to_their_end, 0, 2);
     tcase_add_test(masks, frustum_masks_of_a_large_scene_are_plain_cs);
     suite_add_tcase(suite, masks);
     return test_run_suite(suite);
