@@ -9,6 +9,7 @@
 
 #include "exact_side.h"
 #include "kit.h"
+#include "polygon_marks.h"
 #include "support.h"
 
 #include <math.h>
@@ -313,6 +314,18 @@ static const family_mark marks[] = {
     {"largest", reaches_the_limit, false, true},
     {"sheets_edge_on", sheet_through_eye, true, true},
     {"sheet_flush", face_in_a_face, false, true},
+    {"polygon_abutting", sheets_have_a_common_edge, false, true},
+    {"polygon_abutting", hidden_by_several_only, false, true},
+    {"polygon_gap", sheets_nearly_have_a_common_edge, false, false},
+    {"polygon_tiles", sheets_have_a_common_edge, false, true},
+    {"polygon_tiles", hidden_by_several_only, false, true},
+    {"polygon_octagons", hidden_by_several_only, false, true},
+    {"polygon_bent", some_sheet_is_bent, false, true},
+    {"polygon_eye_plane", eye_in_a_sheets_plane, true, true},
+    {"polygon_eye_edge", eye_on_a_sheets_edge, true, true},
+    {"polygon_eye_corner", eye_in_a_sheets_corner, true, true},
+    {"polygon_one_sided", backs_and_fronts_are_seen, true, true},
+    {"polygon_concave", some_outline_is_not_convex, true, true},
 };
 enum { MARKS = sizeof marks / sizeof *marks };
 
@@ -352,11 +365,12 @@ END_TEST
 static bool same_worlds(const family_world *a, const family_world *b)
 {
     return a->object_count == b->object_count && a->occluder_count == b->occluder_count &&
-           a->camera.depth == b->camera.depth &&
+           a->sheet_count == b->sheet_count && a->camera.depth == b->camera.depth &&
            kit_same_bits(a->camera.view_projection, b->camera.view_projection, 64) &&
            kit_same_bits(a->eye, b->eye, sizeof a->eye) &&
            kit_same_bits(a->objects, b->objects, sizeof a->objects) &&
-           kit_same_bits(a->occluders, b->occluders, sizeof a->occluders);
+           kit_same_bits(a->occluders, b->occluders, sizeof a->occluders) &&
+           kit_same_bits(a->sheets, b->sheets, sizeof a->sheets);
 }
 
 START_TEST(the_same_place_gives_the_same_world_and_another_seed_another)

@@ -84,19 +84,29 @@ static bool open_queues(gpu_bench *bench)
 
 static bool add_occluders(gpu_bench *bench)
 {
-    uint32_t count = bench->file->occluder_count;
+    const obs_scene *file = bench->file;
+    uint32_t boxes = file->occluder_count, count = obs_occluder_total(file);
     occ_scene_desc desc = {.occluder_count = count};
-    occ_box *boxes = malloc(((size_t)count + 1) * sizeof *boxes);
+    occ_box *box = malloc(((size_t)boxes + 1) * sizeof *box);
+    occ_sheet *sheet = malloc(((size_t)file->sheet_count + 1) * sizeof *sheet);
     bench->owners = malloc(((size_t)count + 1) * sizeof *bench->owners);
     occ_result result = OCC_ERROR_OUT_OF_MEMORY;
-    if (boxes && bench->owners) result = occ_scene_create(&desc, &bench->occluders);
+    if (box && sheet && bench->owners) result = occ_scene_create(&desc, &bench->occluders);
     for (uint32_t i = 0; i < count && !result; i++) {
-        boxes[i] = bench->file->occluders[i].box;
-        bench->owners[i] = bench->file->occluders[i].owner;
+        if (i < boxes) {
+            box[i] = file->occluders[i].box;
+        } else {
+            sheet[i - boxes] = *obs_occluder_sheet(file, i);
+        }
+        bench->owners[i] = obs_occluder_owner(file, i);
     }
-    if (!result) result = occ_scene_add_occluders(bench->occluders, boxes, NULL, count, NULL);
+    if (!result) result = occ_scene_add_occluders(bench->occluders, box, NULL, boxes, NULL);
+    if (!result) {
+        result = occ_scene_add_sheets(bench->occluders, sheet, NULL, file->sheet_count, NULL);
+    }
     if (!result) result = occ_scene_commit(bench->occluders);
-    free(boxes);
+    free(box);
+    free(sheet);
     return result ? complain(occ_result_message(result), (int)result) : true;
 }
 

@@ -74,7 +74,7 @@ static void print_occluders(const image_job *job, size_t count)
 {
     for (size_t i = 0; i < count && i < MOST_OCCLUDERS; i++)
         fprintf(stderr, "%s %u (of object %u)", i ? "," : "", job->culprits[i],
-                job->loaded.file->occluders[job->culprits[i]].owner);
+                obs_occluder_owner(job->loaded.file, job->culprits[i]));
     fprintf(stderr, count > MOST_OCCLUDERS ? " and %zu more\n" : "\n", count - MOST_OCCLUDERS);
 }
 
@@ -246,7 +246,7 @@ static bool allocate(image_job *job)
     }
     job->is_drawn = calloc(objects, sizeof *job->is_drawn);
     job->is_seen = calloc(objects, sizeof *job->is_seen);
-    job->culprits = calloc((size_t)job->loaded.file->occluder_count + 1, sizeof *job->culprits);
+    job->culprits = calloc((size_t)obs_occluder_total(job->loaded.file) + 1, sizeof *job->culprits);
     uint32_t width = job->wish->gl.width, height = job->wish->gl.height;
     good = good && job->is_drawn && job->is_seen && job->culprits &&
            image_pixels_create(&job->full, width, height) &&
