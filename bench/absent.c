@@ -42,3 +42,12 @@ int bench_hard(int argc, char **argv)
     return 1;
 }
 #endif
+
+#ifndef OCC_BENCH_OPENCL
+int bench_gpu(int argc, char **argv)
+{
+    (void)argc;
+    fprintf(stderr, "occlude-bench %s: built without OpenCL, which it needs\n", argv[0]);
+    return 1;
+}
+#endif

@@ -37,4 +37,7 @@ int bench_hard(int argc, char **argv);
 /// Speed against error, for every method and scene.
 int bench_error(int argc, char **argv);
 
+/// Tables on an OpenCL device, measured.
+int bench_gpu(int argc, char **argv);
+
 #endif

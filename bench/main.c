@@ -42,6 +42,9 @@ static const bench_command bench_commands[] = {
     {"error", "error [--quick] [--scenes DIR] [--scene NAME] [--out DIR] ...",
      "speed against error: every method and setting on every scene, as CSV, tables and plots",
      "occlude-bench error --quick --out error", bench_error},
+    {"gpu", "gpu F.obs | NAME COUNT SEED [--arrange] [--move] [--devices N] ...",
+     "cull with every object tested on an OpenCL device, and measure it",
+     "occlude-bench gpu city 1000000 2 --every 6", bench_gpu},
 };
 enum { COMMANDS = sizeof bench_commands / sizeof *bench_commands };
 

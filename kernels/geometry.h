@@ -22,12 +22,15 @@
 #ifdef __OPENCL_C_VERSION__
 #pragma OPENCL FP_CONTRACT OFF
 #define OCC_FN      inline
+#define OCC_GLOBAL  __global
 #define OCC_FABS(x) fabs(x)
 typedef uint occ_u32;
 #else
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #define OCC_FN static inline
+#define OCC_GLOBAL
 #ifndef OCC_FABS
 #define OCC_FABS(x) fabsf(x)
 #endif

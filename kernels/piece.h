@@ -29,12 +29,10 @@
 #define OCC_OBJECT_SLACK (1.0f + 0x1p-18f)
 
 #ifdef __OPENCL_C_VERSION__
-#define OCC_GLOBAL         __global
 #define OCC_BITS_OF(x)     as_uint(x)
 #define OCC_FLOAT_OF(bits) as_float(bits)
 #else
 #include <string.h>
-#define OCC_GLOBAL
 static inline uint32_t OCC_BITS_OF(float x)
 {
     uint32_t bits;

@@ -4,28 +4,15 @@
 // the planes of their shadows (verdict.h). The answers of a range are four words.
 #include "fusion.h"
 
-// A row of the box table, relative to the eye.
-inline occ_relative_box relative_row(__global const float *boxes, uint stride, uint row,
-                                     __global const occ_eye *eye)
+inline uint verdict_of(__global const float *boxes, uint stride, __global const occ_sent *sent,
+                       __global const occ_range *range, uint row)
 {
+    __global const occ_eye *eye = &sent->eye;
+    __global const occ_shadow *shadows = OCC_SENT_SHADOWS(sent);
     occ_relative_box box;
-    for (uint j = 0; j < 3; j++) {
-        float coordinate = boxes[j * (size_t)stride + row];
-        box.t[j] = OCC_RELATIVE(coordinate, eye->high[j], eye->low[j]);
-    }
-    for (uint k = 0; k < 9; k++)
-        box.a[k] = boxes[(3 + k) * (size_t)stride + row];
-    box.e = occ_box_slack(&box, eye->slack_floor);
-    return box;
-}
-
-inline uint verdict_of(__global const float *boxes, uint stride, __global const occ_eye *eye,
-                       __global const occ_shadow *shadows, __global const occ_range *range,
-                       __global const uint *candidates, uint row)
-{
-    occ_relative_box box = relative_row(boxes, stride, row, eye);
+    occ_row_relative(&box, boxes, stride, row, eye);
     if (occ_box_outside(&box, eye->plane[0], range->frustum)) return OCC_OUTSIDE;
-    __global const uint *list = candidates + range->candidates;
+    __global const uint *list = OCC_SENT_CANDIDATES(sent) + range->candidates;
     if (range->fused) {
         return occ_box_fused(&box, eye, range->frustum, shadows, list, range->candidate_count, row)
                    ? OCC_HIDDEN
@@ -40,18 +27,16 @@ inline uint verdict_of(__global const float *boxes, uint stride, __global const 
 }
 
 __kernel __attribute__((reqd_work_group_size(OCC_RANGE_OBJECTS, 1, 1))) void
-occ_test(__global const float *boxes, uint stride, __global const occ_eye *eye,
-         __global const occ_shadow *shadows, __global const occ_range *ranges,
-         __global const uint *candidates, __global uint *verdicts)
+occ_test(__global const float *boxes, uint stride, __global const occ_sent *sent,
+         __global uint *verdicts)
 {
     __local uint word[4]; // as in occ_verdict: visible, visible, outside, outside
     uint item = (uint)get_local_id(0), group = (uint)get_group_id(0);
     if (item < 4) word[item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    __global const occ_range *range = &ranges[group];
+    __global const occ_range *range = OCC_SENT_RANGES(sent) + group;
     if (item < range->count) {
-        uint known =
-            verdict_of(boxes, stride, eye, shadows, range, candidates, range->first + item);
+        uint known = verdict_of(boxes, stride, sent, range, range->first + item);
         uint bit = 1u << (item & 31u);
         if (known == OCC_VISIBLE) atomic_or(&word[item >> 5], bit);
         if (known == OCC_OUTSIDE) atomic_or(&word[2 + (item >> 5)], bit);

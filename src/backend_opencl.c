@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test on an OpenCL device. The boxes stay there from frame to frame; a frame sends the
-// shadows, the ranges and their lists, and reads four words per range. Only that read blocks.
+// The test on an OpenCL device. The boxes stay there from frame to frame; a frame sends the eye,
+// the shadows, the ranges and their lists in one piece, and reads four words per range. Only that
+// read blocks.
 #include "backend.h"
 
 #include "cl_device.h"
+#include "fusion.h"
 #include "log.h"
 
+#include <string.h>
+
+#define NO_PLANE_AT         1e30f // everything is inside
 #define COLUMN_BYTES(boxes) ((size_t)(boxes)->stride * sizeof(float))
 
 // A device buffer that grows.
@@ -14,15 +19,19 @@ typedef struct cl_array {
     size_t bytes;
 } cl_array;
 
-enum { BOXES, EYE, SHADOWS, RANGES, CANDIDATES, VERDICTS, ARRAYS };
+enum { BOXES, SENT, VERDICTS, ARRAYS };
 
 typedef struct opencl_backend {
     occ_tester base;
     occ_cl_device device;
+    cl_kernel kernel;
     cl_array array[ARRAYS];
-    uint64_t scene;    // whose boxes are on the device, 0: nobody's
-    uint64_t revision; // as of which commit
+    occ_cl_pinned pinned; // what is sent
+    bool wide;            // an item to an object, not to a range
+    uint64_t scene;       // whose boxes are on the device, 0: nobody's
+    uint64_t revision;    // as of which commit
     uint32_t stride;
+    bool sending; // boxes, that nobody has waited for
 } opencl_backend;
 
 static occ_result grow(opencl_backend *backend, int which, size_t bytes)
@@ -97,6 +106,7 @@ static occ_result send_changes(opencl_backend *backend, const occ_scene *scene)
 static occ_result give_up(opencl_backend *backend, occ_result result)
 {
     backend->scene = 0; // what is on the device is in doubt
+    backend->sending = false;
     (void)clFinish(backend->device.queue);
     return result;
 }
@@ -114,29 +124,82 @@ static occ_result upload(occ_tester *base, const occ_scene *scene)
         result = send(backend, BOXES, boxes->data, COLUMN_BYTES(boxes) * OCC_BOX_COLUMNS);
     }
     if (result) return give_up(backend, result);
+    backend->sending = true;
+    cl_int error = clFlush(backend->device.queue); // the walk goes on meanwhile
+    if (error) return give_up(backend, occ_cl_fail(base->hooks, error, "clFlush"));
     backend->scene = scene->id;
     backend->revision = scene->revision;
     backend->stride = boxes->stride;
     return OCC_SUCCESS;
 }
 
+// (A shadow has at most one plane more than there are sides.)
+static void set_sides(occ_side_shadow *to, const occ_shadow *from)
+{
+    uint32_t silhouettes = occ_shadow_silhouettes(from);
+    *to = (occ_side_shadow){.owner = from->owner, .planes = (1u << from->planes) - 1u};
+    to->sides = from->planes < OCC_SIDES ? from->planes : OCC_SIDES;
+    to->faces = to->planes & ~((1u << silhouettes) - 1u);
+    for (uint32_t p = 0; p < OCC_SIDES; p++)
+        for (uint32_t j = 0; j < 4; j++)
+            to->plane[j][p] = p < from->planes ? from->plane[p][j] : j < 3 ? 0.0f : NO_PLANE_AT;
+    if (from->planes > OCC_SIDES) memcpy(to->last, from->plane[OCC_SIDES], sizeof to->last);
+}
+
+// Shadows take as much room in either form.
+static void pack_shadows(const opencl_backend *backend, void *to, const occ_shadow_set *set)
+{
+    _Static_assert(sizeof(occ_side_shadow) == sizeof(occ_shadow), "a shadow in either form");
+    if (backend->wide) {
+        if (set->count) memcpy(to, set->shadows, set->count * sizeof(occ_shadow));
+        return;
+    }
+    for (uint32_t i = 0; i < set->count; i++)
+        set_sides((occ_side_shadow *)to + i, &set->shadows[i]);
+}
+
+static size_t aligned(size_t bytes)
+{
+    return (bytes + 15) & ~(size_t)15;
+}
+
+// Puts a frame in one piece. The last one has been read: nothing is under way.
+static occ_result pack_job(opencl_backend *backend, const occ_test_job *job, size_t *bytes)
+{
+    size_t shadows = job->set->count * sizeof(occ_shadow);
+    size_t ranges = job->range_count * sizeof(occ_range);
+    size_t candidates = job->candidate_count * sizeof(cl_uint);
+    size_t shadows_at = sizeof(occ_sent), ranges_at = shadows_at + shadows;
+    size_t candidates_at = aligned(ranges_at + ranges), end = candidates_at + candidates;
+    *bytes = end;
+    if (end > backend->pinned.bytes) {
+        backend->base.device_bytes -= backend->pinned.bytes;
+        occ_result result =
+            occ_cl_pin(&backend->device, backend->base.hooks, &backend->pinned, end + end / 2);
+        backend->base.device_bytes += backend->pinned.bytes;
+        if (result) return result;
+    }
+    char *to = backend->pinned.data;
+    *(occ_sent *)to =
+        (occ_sent){*job->eye, (cl_uint)shadows_at, (cl_uint)ranges_at, (cl_uint)candidates_at, 0};
+    pack_shadows(backend, to + shadows_at, job->set);
+    memcpy(to + ranges_at, job->ranges, ranges);
+    if (candidates) memcpy(to + candidates_at, job->candidates, candidates);
+    return OCC_SUCCESS;
+}
+
 static occ_result send_job(opencl_backend *backend, const occ_test_job *job)
 {
-    occ_result result = send(backend, EYE, job->eye, sizeof *job->eye);
-    if (!result) {
-        result = send(backend, SHADOWS, job->set->shadows, job->set->count * sizeof(occ_shadow));
-    }
-    if (!result) result = send(backend, RANGES, job->ranges, job->range_count * sizeof(occ_range));
-    if (!result) {
-        result = send(backend, CANDIDATES, job->candidates, job->candidate_count * sizeof(cl_uint));
-    }
+    size_t bytes;
+    occ_result result = pack_job(backend, job, &bytes);
+    if (!result) result = send(backend, SENT, backend->pinned.data, bytes);
     if (!result) result = grow(backend, VERDICTS, job->range_count * sizeof(occ_verdict));
     return result;
 }
 
 static occ_result set_arguments(opencl_backend *backend)
 {
-    cl_kernel kernel = backend->device.test;
+    cl_kernel kernel = backend->kernel;
     cl_uint argument = 0;
     cl_int error = CL_SUCCESS;
     for (int which = BOXES; which < ARRAYS && !error; which++) {
@@ -153,9 +216,10 @@ static occ_result test(occ_tester *base, const occ_test_job *job)
     occ_result result = send_job(backend, job);
     if (!result) result = set_arguments(backend);
     if (result) return give_up(backend, result);
-    size_t group = OCC_RANGE_OBJECTS, items = group * job->range_count;
-    cl_int error = clEnqueueNDRangeKernel(backend->device.queue, backend->device.test, 1, NULL,
-                                          &items, &group, 0, NULL, NULL);
+    size_t group = backend->wide ? OCC_RANGE_OBJECTS : 1;
+    size_t items = (backend->wide ? group : 2) * job->range_count; // a range is two words
+    cl_int error = clEnqueueNDRangeKernel(backend->device.queue, backend->kernel, 1, NULL, &items,
+                                          &group, 0, NULL, NULL);
     if (error) {
         return give_up(backend, occ_cl_fail(base->hooks, error, "clEnqueueNDRangeKernel"));
     }
@@ -165,11 +229,19 @@ static occ_result test(occ_tester *base, const occ_test_job *job)
 static occ_result read_verdicts(occ_tester *base, const occ_test_job *job)
 {
     opencl_backend *backend = (opencl_backend *)base;
-    cl_int error =
-        clEnqueueReadBuffer(backend->device.queue, backend->array[VERDICTS].memory, CL_TRUE, 0,
-                            job->range_count * sizeof *job->verdicts, job->verdicts, 0, NULL, NULL);
-    if (!error) return OCC_SUCCESS;
-    return give_up(backend, occ_cl_fail(base->hooks, error, "clEnqueueReadBuffer"));
+    const char *call = "clFinish";
+    cl_int error = CL_SUCCESS;
+    if (job->range_count) {
+        call = "clEnqueueReadBuffer";
+        error = clEnqueueReadBuffer(backend->device.queue, backend->array[VERDICTS].memory, CL_TRUE,
+                                    0, job->range_count * sizeof *job->verdicts, job->verdicts, 0,
+                                    NULL, NULL);
+    } else if (backend->sending) {
+        error = clFinish(backend->device.queue);
+    }
+    if (error) return give_up(backend, occ_cl_fail(base->hooks, error, call));
+    backend->sending = false;
+    return OCC_SUCCESS;
 }
 
 static void destroy(occ_tester *base)
@@ -178,22 +250,44 @@ static void destroy(occ_tester *base)
     if (backend->device.queue) (void)clFinish(backend->device.queue);
     for (int which = 0; which < ARRAYS; which++)
         if (backend->array[which].memory) (void)clReleaseMemObject(backend->array[which].memory);
+    if (backend->kernel) (void)clReleaseKernel(backend->kernel);
+    if (backend->device.queue) occ_cl_unpin(&backend->device, &backend->pinned);
     occ_cl_device_close(&backend->device);
     occ_free(base->hooks, backend, sizeof *backend);
 }
 
 static const occ_backend_ops opencl_ops = {"opencl", upload, test, NULL, read_verdicts, destroy};
 
+static occ_result open_kernel(opencl_backend *backend, occ_cl_shape shape)
+{
+    static const char *const wide[] = {"test.cl", NULL}, *const narrow[] = {"sides.cl", "range.cl",
+                                                                            NULL};
+    occ_cl_device *device = &backend->device;
+    occ_hooks *hooks = backend->base.hooks;
+    backend->wide = shape == OCC_CL_SHAPE_WIDE;
+    if (shape == OCC_CL_SHAPE_AUTO) backend->wide = !occ_cl_is_cpu(device);
+    occ_result result = occ_cl_device_build(device, hooks, backend->wide ? wide : narrow);
+    if (result) return result;
+    return occ_cl_kernel(device, hooks, backend->wide ? "occ_test" : "occ_test_range",
+                         backend->wide ? OCC_RANGE_OBJECTS : 1, &backend->kernel);
+}
+
 occ_result occ_backend_opencl_create(occ_hooks *hooks, const void *desc, occ_tester **backend)
 {
     static const occ_cl_desc defaults;
-    opencl_backend *made = occ_alloc(hooks, sizeof *made);
+    const occ_cl_desc *wanted = desc ? desc : &defaults;
     *backend = NULL;
+    if ((unsigned)wanted->shape > OCC_CL_SHAPE_WIDE) {
+        return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "there is no shape %d",
+                        (int)wanted->shape);
+    }
+    opencl_backend *made = occ_alloc(hooks, sizeof *made);
     if (!made) return OCC_ERROR_OUT_OF_MEMORY;
     *made = (opencl_backend){.base = {&opencl_ops, hooks, 0}};
-    occ_result result = occ_cl_device_open(&made->device, hooks, desc ? desc : &defaults);
+    occ_result result = occ_cl_device_open(&made->device, hooks, wanted);
+    if (!result) result = open_kernel(made, wanted->shape);
     if (result) {
-        occ_free(hooks, made, sizeof *made);
+        destroy(&made->base);
         return result;
     }
     *backend = &made->base;

@@ -3,11 +3,11 @@
 
 #include "kernel_sources.h"
 #include "log.h"
-#include "verdict.h"
+#include <string.h>
 
 #define MOST_PLATFORMS 16u
 #define MOST_DEVICES   16u
-#define MOST_SOURCES   8u
+#define MOST_SOURCES   16u
 
 // What a loader without any platform answers (cl_khr_icd).
 #define PLATFORM_NOT_FOUND (-1001)
@@ -105,32 +105,57 @@ static void log_build(const occ_cl_device *device, occ_hooks *hooks)
     occ_free(hooks, text, size + 1);
 }
 
-static occ_result build(occ_cl_device *device, occ_hooks *hooks)
+// Whether a source is part of a program: all of the headers are.
+static bool is_part(const char *name, const char *const *kernels)
+{
+    size_t length = strlen(name);
+    if (length < 3 || strcmp(name + length - 3, ".cl") != 0) return true;
+    for (; *kernels; kernels++)
+        if (strcmp(name, *kernels) == 0) return true;
+    return false;
+}
+
+occ_result occ_cl_device_build(occ_cl_device *device, occ_hooks *hooks, const char *const *kernels)
 {
     const char *texts[MOST_SOURCES];
     size_t sizes[MOST_SOURCES];
-    for (unsigned i = 0; i < occ_kernel_source_count && i < MOST_SOURCES; i++) {
-        texts[i] = occ_kernel_sources[i].text;
-        sizes[i] = occ_kernel_sources[i].size;
+    cl_uint count = 0;
+    for (unsigned i = 0; i < occ_kernel_source_count && count < MOST_SOURCES; i++) {
+        if (!is_part(occ_kernel_sources[i].name, kernels)) continue;
+        texts[count] = occ_kernel_sources[i].text;
+        sizes[count++] = occ_kernel_sources[i].size;
     }
     cl_int error;
-    device->program =
-        clCreateProgramWithSource(device->context, occ_kernel_source_count, texts, sizes, &error);
+    device->program = clCreateProgramWithSource(device->context, count, texts, sizes, &error);
     if (error) return occ_cl_fail(hooks, error, "clCreateProgramWithSource");
     error = clBuildProgram(device->program, 1, &device->id, "-cl-std=CL1.2", NULL, NULL);
-    if (error) {
-        log_build(device, hooks);
-        return occ_fail(hooks, OCC_ERROR_KERNEL_BUILD, "clBuildProgram returned %d", (int)error);
-    }
-    device->test = clCreateKernel(device->program, "occ_test", &error);
-    return error ? occ_cl_fail(hooks, error, "clCreateKernel") : OCC_SUCCESS;
+    if (!error) return OCC_SUCCESS;
+    log_build(device, hooks);
+    return occ_fail(hooks, OCC_ERROR_KERNEL_BUILD, "clBuildProgram returned %d", (int)error);
 }
 
-// Says what the device is, and refuses one that cannot run a range as one work-group.
+occ_result occ_cl_kernel(const occ_cl_device *device, const occ_hooks *hooks, const char *name,
+                         size_t group, cl_kernel *kernel)
+{
+    cl_int error;
+    size_t most = 0;
+    *kernel = clCreateKernel(device->program, name, &error);
+    if (error) {
+        *kernel = NULL;
+        return occ_cl_fail(hooks, error, "clCreateKernel");
+    }
+    error = clGetKernelWorkGroupInfo(*kernel, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most,
+                                     &most, NULL);
+    if (error) return occ_cl_fail(hooks, error, "clGetKernelWorkGroupInfo");
+    if (most >= group) return OCC_SUCCESS;
+    return occ_fail(hooks, OCC_ERROR_UNSUPPORTED,
+                    "%s: the device takes groups of %zu, %zu are needed", name, most, group);
+}
+
+// Says what the device is.
 static occ_result inspect(occ_cl_device *device, const occ_hooks *hooks)
 {
     char name[128] = "", driver[128] = "";
-    size_t group = 0;
     cl_int error = clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof name - 1, name, NULL);
     if (!error) {
         error = clGetDeviceInfo(device->id, CL_DRIVER_VERSION, sizeof driver - 1, driver, NULL);
@@ -139,14 +164,15 @@ static occ_result inspect(occ_cl_device *device, const occ_hooks *hooks)
         error = clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE,
                                 sizeof device->largest_buffer, &device->largest_buffer, NULL);
     }
-    if (error) return occ_cl_fail(hooks, error, "clGetDeviceInfo");
-    error = clGetKernelWorkGroupInfo(device->test, device->id, CL_KERNEL_WORK_GROUP_SIZE,
-                                     sizeof group, &group, NULL);
-    if (error) return occ_cl_fail(hooks, error, "clGetKernelWorkGroupInfo");
-    if (group < OCC_RANGE_OBJECTS) {
-        return occ_fail(hooks, OCC_ERROR_UNSUPPORTED, "%s takes groups of %zu, %u are needed", name,
-                        group, OCC_RANGE_OBJECTS);
+    if (!error) {
+        error = clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof device->units,
+                                &device->units, NULL);
     }
+    if (!error) {
+        error =
+            clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof device->type, &device->type, NULL);
+    }
+    if (error) return occ_cl_fail(hooks, error, "clGetDeviceInfo");
     occ_log(hooks, OCC_LOG_INFO, "OpenCL device: %s, driver %s", name, driver);
     return OCC_SUCCESS;
 }
@@ -164,15 +190,49 @@ occ_result occ_cl_device_open(occ_cl_device *device, occ_hooks *hooks, const occ
         if (!device->id) result = choose_device(device, hooks);
         if (!result) result = use_context(device, hooks, desc->context);
     }
-    if (!result) result = build(device, hooks);
     if (!result) result = inspect(device, hooks);
     if (result) occ_cl_device_close(device);
     return result;
 }
 
+bool occ_cl_is_cpu(const occ_cl_device *device)
+{
+    return (device->type & (CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU)) == CL_DEVICE_TYPE_CPU;
+}
+
+void occ_cl_unpin(const occ_cl_device *device, occ_cl_pinned *pinned)
+{
+    if (pinned->data) {
+        (void)clEnqueueUnmapMemObject(device->queue, pinned->memory, pinned->data, 0, NULL, NULL);
+        (void)clFinish(device->queue);
+    }
+    if (pinned->memory) (void)clReleaseMemObject(pinned->memory);
+    *pinned = (occ_cl_pinned){NULL, NULL, 0};
+}
+
+occ_result occ_cl_pin(const occ_cl_device *device, const occ_hooks *hooks, occ_cl_pinned *pinned,
+                      size_t bytes)
+{
+    if (pinned->bytes >= bytes) return OCC_SUCCESS;
+    occ_cl_unpin(device, pinned);
+    cl_int error;
+    cl_mem_flags flags = CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR;
+    cl_mem memory = clCreateBuffer(device->context, flags, bytes, NULL, &error);
+    if (error) return occ_cl_fail(hooks, error, "clCreateBuffer");
+    pinned->memory = memory;
+    void *data = clEnqueueMapBuffer(device->queue, memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0,
+                                    bytes, 0, NULL, NULL, &error);
+    if (error) {
+        occ_cl_unpin(device, pinned);
+        return occ_cl_fail(hooks, error, "clEnqueueMapBuffer");
+    }
+    pinned->data = data;
+    pinned->bytes = bytes;
+    return OCC_SUCCESS;
+}
+
 void occ_cl_device_close(occ_cl_device *device)
 {
-    if (device->test) (void)clReleaseKernel(device->test);
     if (device->program) (void)clReleaseProgram(device->program);
     if (device->queue) (void)clReleaseCommandQueue(device->queue);
     if (device->context) (void)clReleaseContext(device->context);

@@ -95,11 +95,9 @@ static occ_result run_test(occ_view *view)
 {
     occ_frame *frame = &view->frame;
     occ_tester *backend = view->backend;
-    if (!frame->ranges.count)
-        return OCC_SUCCESS; // without a read an upload would outlast the frame
     occ_frame_set_job(frame);
-    occ_result result = backend->ops->upload(backend, frame->scene);
-    if (!result) result = backend->ops->test(backend, &frame->job);
+    occ_result result = OCC_SUCCESS;
+    if (frame->ranges.count) result = backend->ops->test(backend, &frame->job);
     if (!result) result = backend->ops->read(backend, &frame->job);
     return result;
 }
@@ -126,6 +124,8 @@ static occ_result walk_and_test(occ_view *view, double *walked)
     occ_frame *frame = &view->frame;
     walk_call call = {.frame = frame};
     bool both = view->backend->ops->overlap && view->tested >= OVERLAP_OBJECTS;
+    occ_result sent = view->backend->ops->upload(view->backend, frame->scene);
+    if (sent) return sent;
     occ_frame_set_job(frame);
     if (both) {
         view->backend->ops->overlap(view->backend, &frame->job, walk_on, &call);
@@ -134,7 +134,10 @@ static occ_result walk_and_test(occ_view *view, double *walked)
     }
     *walked = call.end;
     view->tested = frame->stats.tested;
-    return both || call.result ? call.result : run_test(view);
+    if (both) return call.result;
+    if (call.result) frame->ranges.count = 0; // what is under way must not outlast the frame
+    occ_result result = run_test(view);
+    return call.result ? call.result : result;
 }
 
 // Scatters the ranges' verdicts, which speak of rows, into the mask, which speaks of slots.

@@ -28,6 +28,13 @@ static void hold(cl_int error)
     kit_cl_state.created += error == CL_SUCCESS;
 }
 
+// Counts the event that a command was asked for.
+static cl_int note(cl_int error, const cl_event *event)
+{
+    kit_cl_state.live += error == CL_SUCCESS && event;
+    return error;
+}
+
 #define REAL(type, name, parameters)                                                               \
     type __real_##name parameters;                                                                 \
     type __wrap_##name parameters;                                                                 \
@@ -199,8 +206,9 @@ REAL(cl_int, clEnqueueWriteBuffer,
     kit_cl_state.in_flight = blocking ? 0 : kit_cl_state.in_flight + 1;
     kit_cl_state.whole++;
     kit_cl_state.whole_bytes += size;
-    return __real_clEnqueueWriteBuffer(queue, buffer, blocking, offset, size, from, waits,
-                                       wait_list, event);
+    return note(__real_clEnqueueWriteBuffer(queue, buffer, blocking, offset, size, from, waits,
+                                            wait_list, event),
+                event);
 }
 
 REAL(cl_int, clEnqueueWriteBufferRect,
@@ -226,8 +234,9 @@ REAL(cl_int, clEnqueueNDRangeKernel,
 {
     if (fails("clEnqueueNDRangeKernel")) return kit_cl_state.code;
     kit_cl_state.in_flight++;
-    return __real_clEnqueueNDRangeKernel(queue, kernel, dimensions, offset, global, local, waits,
-                                         wait_list, event);
+    return note(__real_clEnqueueNDRangeKernel(queue, kernel, dimensions, offset, global, local,
+                                              waits, wait_list, event),
+                event);
 }
 
 REAL(cl_int, clEnqueueReadBuffer,
@@ -238,6 +247,63 @@ REAL(cl_int, clEnqueueReadBuffer,
     kit_cl_state.in_flight = blocking ? 0 : kit_cl_state.in_flight + 1;
     return __real_clEnqueueReadBuffer(queue, buffer, blocking, offset, size, to, waits, wait_list,
                                       event);
+}
+
+REAL(cl_int, clEnqueueFillBuffer,
+     (cl_command_queue queue, cl_mem buffer, const void *pattern, size_t pattern_size,
+      size_t offset, size_t size, cl_uint waits, const cl_event *wait_list, cl_event *event))
+{
+    if (fails("clEnqueueFillBuffer")) return kit_cl_state.code;
+    kit_cl_state.in_flight++;
+    return note(__real_clEnqueueFillBuffer(queue, buffer, pattern, pattern_size, offset, size,
+                                           waits, wait_list, event),
+                event);
+}
+
+REAL(cl_int, clEnqueueMarkerWithWaitList,
+     (cl_command_queue queue, cl_uint waits, const cl_event *wait_list, cl_event *event))
+{
+    if (fails("clEnqueueMarkerWithWaitList")) return kit_cl_state.code;
+    return note(__real_clEnqueueMarkerWithWaitList(queue, waits, wait_list, event), event);
+}
+
+REAL(void *, clEnqueueMapBuffer,
+     (cl_command_queue queue, cl_mem buffer, cl_bool blocking, cl_map_flags flags, size_t offset,
+      size_t size, cl_uint waits, const cl_event *wait_list, cl_event *event, cl_int *error))
+{
+    void *mapped = NULL;
+    *error = kit_cl_state.code;
+    if (!fails("clEnqueueMapBuffer")) {
+        mapped = __real_clEnqueueMapBuffer(queue, buffer, blocking, flags, offset, size, waits,
+                                           wait_list, event, error);
+    }
+    kit_cl_state.live += *error == CL_SUCCESS;
+    return mapped;
+}
+
+// As a release.
+REAL(cl_int, clEnqueueUnmapMemObject,
+     (cl_command_queue queue, cl_mem buffer, void *mapped, cl_uint waits, const cl_event *wait_list,
+      cl_event *event))
+{
+    bool failed = fails("clEnqueueUnmapMemObject");
+    cl_int error = __real_clEnqueueUnmapMemObject(queue, buffer, mapped, waits, wait_list, event);
+    kit_cl_state.live -= error == CL_SUCCESS;
+    return failed ? kit_cl_state.code : error;
+}
+
+WRAP_RELEASE(clReleaseEvent, cl_event)
+WRAP(clFlush, (cl_command_queue queue), (queue))
+WRAP(clGetEventProfilingInfo,
+     (cl_event event, cl_profiling_info name, size_t size, void *value, size_t *needed),
+     (event, name, size, value, needed))
+
+REAL(cl_int, clWaitForEvents, (cl_uint count, const cl_event *events))
+{
+    bool failed = fails("clWaitForEvents");
+    kit_cl_state.in_flight = 0;
+    cl_int error = __real_clWaitForEvents(count, events);
+    return failed ? kit_cl_state.code : error;
 }
 
 // Like a release: one that fails has waited all the same.

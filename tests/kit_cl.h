@@ -29,7 +29,8 @@ typedef struct kit_cl {
     uint64_t calls;
     const char *failed; // the call that failed
     unsigned failures;
-    int64_t live; // contexts, queues, programs, kernels and buffers held, counting references
+    // contexts, queues, programs, kernels, buffers, mappings and events held, counting references
+    int64_t live;
     uint64_t buffer_bytes; // of the buffers held
     unsigned created;      // of them
     unsigned in_flight;    // enqueued since the queue was last waited for

@@ -6,6 +6,8 @@
 #include "kit_cl.h"
 #include "support.h"
 
+#include <occlude/opencl.h>
+
 #include <string.h>
 
 enum { OBJECTS = 1200 };
@@ -114,10 +116,12 @@ START_TEST(device_with_small_work_groups_is_refused)
 {
     kit_cl_state.group = 63;
     occ_view *view = reference;
-    occ_result result = create(&view);
+    occ_view_desc desc = {.allocator = kit_allocator(&heap), .logger = kit_logger(&record)};
+    occ_cl_desc wide = {.shape = OCC_CL_SHAPE_WIDE};
+    occ_result result = occ_cl_view_create(&desc, &wide, &view);
     check_no_view(result, OCC_ERROR_UNSUPPORTED, view, "groups of 63");
     kit_cl_state.group = 64;
-    ck_assert_int_eq(create(&view), OCC_SUCCESS);
+    ck_assert_int_eq(occ_cl_view_create(&desc, &wide, &view), OCC_SUCCESS);
     check_works(view, 1);
     occ_view_destroy(view);
 }
@@ -190,7 +194,8 @@ END_TEST
 // What fails with nothing left to do about it.
 static bool is_harmless(const char *call)
 {
-    return strcmp(call, "clReleaseMemObject") == 0 || strcmp(call, "clFinish") == 0;
+    return strcmp(call, "clReleaseMemObject") == 0 || strcmp(call, "clFinish") == 0 ||
+           strcmp(call, "clEnqueueUnmapMemObject") == 0;
 }
 
 // Culls; if a call fails on the way, says so.
@@ -255,7 +260,7 @@ START_TEST(failed_call_in_a_cull_is_reported_and_the_next_goes_well)
         occ_view_destroy(view);
         view = NULL;
     }
-    ck_assert_uint_gt(n, 40);
+    ck_assert_uint_gt(n, 20);
     occ_view_destroy(view);
 }
 END_TEST

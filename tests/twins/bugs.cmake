@@ -114,6 +114,9 @@ endif()
 if(occ_opencl)
     occ_plant(owner_opencl IN kernels/test.cl REPLACE "${own}" BY "" COMPILE kernels)
     occ_caught_by(owner_opencl backend_edges device "opencl on a device: ${decided_otherwise}")
+    occ_plant(owner_ranges IN kernels/range.cl REPLACE "open & (iota != (int)(shadow->owner - row))" BY "open"
+        COMPILE kernels)
+    occ_caught_by(owner_ranges backend_edges device "opencl by ranges on a device: ${decided_otherwise}")
 endif()
 
 # --- small worlds and large scenes ---------------------------------------------------------------
