@@ -45,8 +45,10 @@
 #define OCCLUDE_H
 
 #include "base.h"
+#include "clusters.h"
 #include "cull.h"
 #include "inner.h"
+#include "instances.h"
 #include "scene.h"
 #include "soup.h"
 #include "version.h"
