@@ -17,22 +17,50 @@ judge_effort judge_spent(const judge *j)
     return j->effort;
 }
 
+static void make_room(judge *j, size_t count)
+{
+    if (count <= j->shadow_room) return;
+    j->shadows = realloc(j->shadows, count * sizeof *j->shadows);
+    j->candidates = realloc(j->candidates, count * sizeof *j->candidates);
+    if (!j->shadows || !j->candidates) abort();
+    memset(j->shadows + j->shadow_room, 0, (count - j->shadow_room) * sizeof *j->shadows);
+    j->shadow_room = count;
+}
+
 void judge_set_occluders(judge *j, const occ_box *boxes, const int *owners, size_t count)
 {
-    if (count > j->shadow_room) {
-        j->shadows = realloc(j->shadows, count * sizeof *j->shadows);
-        j->candidates = realloc(j->candidates, count * sizeof *j->candidates);
-        if (!j->shadows || !j->candidates) abort();
-        memset(j->shadows + j->shadow_room, 0, (count - j->shadow_room) * sizeof *j->shadows);
-        j->shadow_room = count;
-    }
+    make_room(j, count);
     j->shadow_count = count;
     for (size_t i = 0; i < count; i++)
         judge_admit(j, &boxes[i]);
     for (size_t i = 0; i < count; i++) {
-        judge_make_shadow(j, &j->shadows[i], &boxes[i], j->has_clips);
+        judge_make_body(j, &j->shadows[i].body, &boxes[i]);
+        judge_make_shadow(j, &j->shadows[i], j->has_clips);
         j->shadows[i].owner = owners ? owners[i] : -1;
     }
+}
+
+static void add_sheet(judge *j, const occ_sheet *sheet, int owner)
+{
+    for (uint32_t c = 2; c < sheet->corner_count; c++) {
+        judge_shadow *shadow = &j->shadows[j->shadow_count++];
+        judge_make_triangle(j, &shadow->body, sheet->corner[0], sheet->corner[c - 1],
+                            sheet->corner[c]);
+        judge_make_shadow(j, shadow, j->has_clips);
+        if (sheet->sides == OCC_SIDES_FRONT) judge_keep_front(shadow);
+        shadow->owner = owner;
+    }
+}
+
+// A sheet is its triangles: closed, so that nothing is seen through what two of them share.
+void judge_add_sheets(judge *j, const occ_sheet *sheets, const int *owners, size_t count)
+{
+    size_t total = j->shadow_count;
+    for (size_t i = 0; i < count; i++)
+        total += sheets[i].corner_count - 2;
+    make_room(j, total);
+    for (size_t i = 0; i < count; i++)
+        add_sheet(j, &sheets[i], owners ? owners[i] : -1);
 }
 
 // --- shadows -------------------------------------------------------------------------------------
@@ -194,7 +222,7 @@ static bool has_area(judge *j)
 // Whether the axes beside `face` span anything.
 static bool spans(judge *j, const judge_body *body, int face)
 {
-    judge_load(j, &body->box);
+    judge_load(j, body);
     exact_cross(j->m, j->a[(face + 1) % 3], j->a[(face + 2) % 3]);
     return !exact_is_zero(j->m);
 }
@@ -235,7 +263,7 @@ static bool each_facet(judge *j, bool all, bool (*holds)(judge *), int *facing)
     num_cross(normal, body->axis[1], body->axis[2]);
     int turn = judge_ask(j, num_dot(normal, body->axis[0], 3));
     if (turn == NUM_UNSURE) {
-        judge_load(j, &body->box);
+        judge_load(j, body);
         exact_cross(j->m, j->a[1], j->a[2]);
         exact_dot(j->t[0], j->m, j->a[0]);
         turn = mpz_sgn(j->t[0]);

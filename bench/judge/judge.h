@@ -40,6 +40,12 @@ void judge_filter(judge *j, bool on);
 // given as `self`; -1 is nobody. NULL: they have no owners.
 void judge_set_occluders(judge *j, const occ_box *boxes, const int *owners, size_t count);
 
+// Adds sheets to the occluders that were set; `owners` as there. A sheet hides what the triangles
+// of its fan hide, each as its floats are, whether or not they lie in one plane. One that hides
+// from its front alone does so triangle by triangle: each that the eye is before. A triangle
+// without an area hides nothing.
+void judge_add_sheets(judge *j, const occ_sheet *sheets, const int *owners, size_t count);
+
 // Widens the shadows of all occluders: each plane through the eye and an edge is turned outward
 // about the eye, by atan(`by`) in the middle of the edge; planes of faces stay. What is hidden now
 // is no farther than that outside of the planes of an occluder. Until the next

@@ -25,18 +25,21 @@ enum {
 
 typedef mpz_t exact4[4];
 
-// What kind of thing a box is. Rank 3: a solid. 2: flat, axes `pick` + 1 and `pick` + 2 span it. 1:
-// a segment along axis `pick`. 0: a point.
+// What kind of thing a body is. Rank 3: a solid. 2: flat, axes `pick` + 1 and `pick` + 2 span it.
+// 1: a segment along axis `pick`. 0: a point.
 typedef struct judge_shape {
     int rank, pick;
 } judge_shape;
 
-// A box in local coordinates, and the half-spaces whose intersection it is: 2 k and 2 k + 1 are
-// opposite.
+// A box or a triangle in local coordinates, and the half-spaces whose intersection it is: sides 2 k
+// and 2 k + 1 are opposite where both are below `paired`. A triangle's axes 0 and 1 are its edges
+// from corner 0, which is in the place of the center. Its sides 0 and 1 are its plane's, side 0 the
+// one that is positive where the corners go counterclockwise; 2 to 4 are its edges'.
 typedef struct judge_body {
-    occ_box box;
+    bool triangle;
+    occ_box box; // of a triangle: its corners, as center, axis[0] and axis[1]
     judge_shape shape;
-    int sides;
+    int sides, paired;
     num center[3], axis[3][3];
     num side[JUDGE_SIDES][4];
     int sign[JUDGE_SIDES]; // at the eye
@@ -146,13 +149,15 @@ judge *judge_of_corner(const occ_box *eyes, unsigned corner);
 
 // --- judge_body.c --------------------------------------------------------------------------------
 
-// The box in the unit, as j->c and j->a.
-void judge_load(judge *j, const occ_box *box);
-judge_shape judge_find_shape(judge *j, const occ_box *box);
+// The body in the unit, as j->c and j->a.
+void judge_load(judge *j, const judge_body *body);
 void judge_make_body(judge *j, judge_body *body, const occ_box *box);
-// The body's sides in the unit, as j->half; leaves the box in j->c and j->a.
+// Of three corners, in floats as they are.
+void judge_make_triangle(judge *j, judge_body *body, const float *a, const float *b,
+                         const float *c);
+// The body's sides in the unit, as j->half; leaves the body in j->c and j->a.
 void judge_exact_sides(judge *j, const judge_body *body);
-// The sign of a plane where it is least (-1) or greatest (1) on a box. Without `exact` NUM_UNSURE
+// The sign of a plane where it is least (-1) or greatest (1) on a body. Without `exact` NUM_UNSURE
 // is an answer.
 int judge_extreme_sign(judge *j, const judge_body *body, const num *plane, mpz_t *exact, int which);
 // Counts, and lets the filter speak.
@@ -161,7 +166,10 @@ bool judge_holds_eye(const judge *j, const judge_body *body);
 
 // --- judge_shadow.c ------------------------------------------------------------------------------
 
-void judge_make_shadow(judge *j, judge_shadow *shadow, const occ_box *box, bool clipped);
+// Of the body that is in the shadow. The near and the far plane count where it is to be clipped.
+void judge_make_shadow(judge *j, judge_shadow *shadow, bool clipped);
+// Of a triangle that hides from its front alone: without a shadow unless the eye is before it.
+void judge_keep_front(judge_shadow *shadow);
 void judge_exact_shadow(judge *j, judge_shadow *shadow);
 void judge_free_shadow(judge_shadow *shadow);
 

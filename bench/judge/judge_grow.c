@@ -9,10 +9,15 @@
 
 #define GRID 60 // binary places; the largest number is in [1/2, 1)
 
-// The middle of the edge that side `one` of a solid has in common with side `two`, or of a sheet's
-// edge along strip `two`.
+// The middle of the edge that side `one` of a solid has in common with side `two`, or of a flat
+// body's edge along strip `two`.
 static void edge_middle(const judge_body *body, int one, int two, double middle[3])
 {
+    for (int i = 0; body->triangle && i < 3; i++) {
+        double first = two == 3 ? 0.0 : 0.5, second = two == 2 ? 0.0 : 0.5;
+        middle[i] = body->center[i].v + first * body->axis[0][i].v + second * body->axis[1][i].v;
+    }
+    if (body->triangle) return;
     int skip = body->shape.rank == 3 ? 3 ^ (one / 2) ^ (two / 2) : -1; // the axis along the edge
     for (int i = 0; i < 3; i++)
         middle[i] = body->center[i].v;
@@ -63,7 +68,8 @@ static bool grow(judge_shadow *shadow, double by)
         double size = fabs(side[3].v);
         for (int k = 0; k < 3; k++)
             size += fabs(side[k].v * body->center[k].v);
-        if (fabs(side[3].v) <= 1e-9 * size) return false;
+        bool is_edge = body->triangle && i >= 2; // of these the sign alone counts
+        if (is_edge ? body->sign[i] == 0 : fabs(side[3].v) <= 1e-9 * size) return false;
     }
     int kept = 0;
     for (int p = 0; p < shadow->count; p++) {

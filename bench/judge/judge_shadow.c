@@ -52,7 +52,7 @@ static void add_clips(judge *j, judge_shadow *shadow)
 
 static bool opposite(const judge_shadow *shadow, int i, int k)
 {
-    return i < shadow->body.sides && k < shadow->body.sides && i / 2 == k / 2;
+    return i < shadow->body.paired && k < shadow->body.paired && i / 2 == k / 2;
 }
 
 static void num_planes(judge *j, judge_shadow *shadow)
@@ -71,15 +71,15 @@ static void num_planes(judge *j, judge_shadow *shadow)
     }
 }
 
-void judge_make_shadow(judge *j, judge_shadow *shadow, const occ_box *box, bool clipped)
+void judge_make_shadow(judge *j, judge_shadow *shadow, bool clipped)
 {
     int sign[JUDGE_HALVES];
-    judge_make_body(j, &shadow->body, box);
     shadow->count = 0;
     shadow->version = -1;
     shadow->halves = shadow->body.sides;
     shadow->grown = false;
-    shadow->empty = judge_holds_eye(j, &shadow->body);
+    shadow->empty =
+        judge_holds_eye(j, &shadow->body) || (shadow->body.triangle && shadow->body.shape.rank < 2);
     if (shadow->empty) return;
     if (clipped) add_clips(j, shadow);
     for (int i = 0; i < shadow->halves; i++) {
@@ -90,6 +90,11 @@ void judge_make_shadow(judge *j, judge_shadow *shadow, const occ_box *box, bool 
         for (int k = 0; k < shadow->halves; k++)
             if (sign[i] < 0 && sign[k] > 0 && !opposite(shadow, i, k)) add_plane(shadow, i, k);
     num_planes(j, shadow);
+}
+
+void judge_keep_front(judge_shadow *shadow)
+{
+    if (shadow->body.sign[0] <= 0) shadow->empty = true;
 }
 
 void judge_free_shadow(judge_shadow *shadow)

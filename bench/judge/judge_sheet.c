@@ -78,7 +78,7 @@ bool judge_section_sheet(judge *j, const judge_body *body, int clip)
 static void exact_face(judge *j)
 {
     int face = j->sheet.face;
-    judge_load(j, &j->sheet.body->box);
+    judge_load(j, j->sheet.body);
     for (int i = 0; i < 3; i++) {
         mpz_set(j->xo[i], j->c[i]);
         if (j->sheet.end > 0) mpz_add(j->xo[i], j->xo[i], j->a[face][i]);
@@ -95,7 +95,7 @@ static void exact_face(judge *j)
 // 0: no line ever crosses them along t.
 static void exact_thread(judge *j)
 {
-    judge_load(j, &j->sheet.body->box);
+    judge_load(j, j->sheet.body);
     for (int i = 0; i < 3; i++) {
         mpz_set(j->xo[i], j->c[i]);
         mpz_set_ui(j->xu[i], 0);
@@ -150,7 +150,7 @@ static int sign_at_center(judge *j, const judge_body *body, int clip)
 {
     int sign = judge_ask(j, num_add(num_dot(j->clip[clip], body->center, 3), j->clip[clip][3]));
     if (sign != NUM_UNSURE) return sign;
-    judge_load(j, &body->box);
+    judge_load(j, body);
     exact_dot(j->t[0], j->exact_clip[clip], j->c);
     mpz_add(j->t[0], j->t[0], j->exact_clip[clip][3]);
     return mpz_sgn(j->t[0]);

@@ -18,7 +18,7 @@ static int sign_at_corner(judge *j, const judge_body *body, judge_shadow *shadow
     int sign = judge_ask(j, num_add(num_dot(n, at, 3), n[3]));
     if (sign != NUM_UNSURE) return sign;
     judge_exact_shadow(j, shadow);
-    judge_load(j, &body->box);
+    judge_load(j, body);
     for (int i = 0; i < 3; i++) {
         mpz_set(j->m[i], j->c[i]);
         for (int k = 0; k < 3; k++)
@@ -35,7 +35,8 @@ judge_sight judge_single(judge *j, const occ_box *object, const occ_box *occlude
 {
     judge_admit(j, occluder);
     judge_make_body(j, &j->body, object);
-    judge_make_shadow(j, &j->single, occluder, false);
+    judge_make_body(j, &j->single.body, occluder);
+    judge_make_shadow(j, &j->single, false);
     if (j->single.empty) return JUDGE_SEEN;
     judge_sight least = JUDGE_HIDDEN;
     for (int p = 0; p < j->single.count; p++) {

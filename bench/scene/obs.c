@@ -11,10 +11,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER_BYTES = 16, OBJECT_BYTES = 48, OCCLUDER_BYTES = 52, FRAME_BYTES = 152 };
+enum {
+    HEADER_BYTES = 16,
+    HEADER_2_BYTES = 20,
+    OBJECT_BYTES = 48,
+    OCCLUDER_BYTES = 52,
+    SHEET_BYTES = 108,
+    FRAME_BYTES = 152
+};
 
 typedef char obs_frame_is_packed[sizeof(obs_frame) == FRAME_BYTES ? 1 : -1];
 typedef char obs_box_is_packed[sizeof(occ_box) == OBJECT_BYTES ? 1 : -1];
+typedef char obs_sheet_is_packed[sizeof(obs_sheet) == SHEET_BYTES ? 1 : -1];
 
 static uint32_t load_u32(const uint8_t *p)
 {
@@ -83,57 +91,109 @@ static bool read_floats(obs_cursor *cursor, float *out, size_t count, const char
 static bool read_header(obs_cursor *cursor, obs_scene *scene)
 {
     static const char magic[4] = {'O', 'B', 'S', '1'};
-    for (size_t i = 0; i < sizeof magic; i++)
-        if (i >= cursor->size || cursor->bytes[i] != (uint8_t)magic[i])
-            return refuse(cursor, i, "expected the magic \"OBS1\"");
-    if (cursor->size < HEADER_BYTES)
-        return refuse(cursor, cursor->size, "expected a header of %d bytes, the file ends",
-                      HEADER_BYTES);
+    for (size_t i = 0; i < sizeof magic; i++) {
+        bool is_version_2 = i == 3 && cursor->size > i && cursor->bytes[i] == '2';
+        if (i >= cursor->size || (cursor->bytes[i] != (uint8_t)magic[i] && !is_version_2))
+            return refuse(cursor, i, "expected the magic \"OBS1\" or \"OBS2\"");
+    }
+    bool has_sheets = cursor->bytes[3] == '2';
+    cursor->at = has_sheets ? HEADER_2_BYTES : HEADER_BYTES;
+    if (cursor->size < cursor->at)
+        return refuse(cursor, cursor->size, "expected a header of %zu bytes, the file ends",
+                      cursor->at);
     scene->object_count = load_u32(cursor->bytes + 4);
     scene->occluder_count = load_u32(cursor->bytes + 8);
-    scene->frame_count = load_u32(cursor->bytes + 12);
-    cursor->at = HEADER_BYTES;
+    if (has_sheets) scene->sheet_count = load_u32(cursor->bytes + 12);
+    scene->frame_count = load_u32(cursor->bytes + cursor->at - 4);
     return true;
 }
 
-// Before anything is allocated: a short file with huge counts must not ask for their memory.
+// Before anything is allocated: a short file with huge counts must not ask for their memory. Boxes
+// and sheets have one row of numbers, which must have an end.
 static bool check_size(const obs_cursor *cursor, const obs_scene *scene)
 {
-    uint64_t expected = HEADER_BYTES + (uint64_t)OBJECT_BYTES * scene->object_count +
+    uint64_t expected = cursor->at + (uint64_t)OBJECT_BYTES * scene->object_count +
                         (uint64_t)OCCLUDER_BYTES * scene->occluder_count +
+                        (uint64_t)SHEET_BYTES * scene->sheet_count +
                         (uint64_t)FRAME_BYTES * scene->frame_count;
+    if (scene->sheet_count > UINT32_MAX - scene->occluder_count)
+        return refuse(cursor, 8, "expected %u boxes and sheets that hide at most, found %u and %u",
+                      UINT32_MAX, scene->occluder_count, scene->sheet_count);
     if (cursor->size == expected) return true;
     bool is_short = cursor->size < expected;
-    return refuse(cursor, is_short ? cursor->size : (size_t)expected,
-                  "expected a file of %llu bytes (%u objects, %u occluders, %u frames), %s",
-                  (unsigned long long)expected, scene->object_count, scene->occluder_count,
-                  scene->frame_count, is_short ? "the file ends" : "the file goes on");
+    return refuse(
+        cursor, is_short ? cursor->size : (size_t)expected,
+        "expected a file of %llu bytes (%u objects, %u occluders, %u sheets, %u frames), %s",
+        (unsigned long long)expected, scene->object_count, scene->occluder_count,
+        scene->sheet_count, scene->frame_count, is_short ? "the file ends" : "the file goes on");
 }
 
 static bool allocate(obs_scene *scene)
 {
     scene->object_capacity = scene->object_count;
     scene->occluder_capacity = scene->occluder_count;
+    scene->sheet_capacity = scene->sheet_count;
     scene->frame_capacity = scene->frame_count;
     scene->objects = calloc((size_t)scene->object_count + 1, sizeof *scene->objects);
     scene->occluders = calloc((size_t)scene->occluder_count + 1, sizeof *scene->occluders);
+    scene->sheets = calloc((size_t)scene->sheet_count + 1, sizeof *scene->sheets);
     scene->frames = calloc((size_t)scene->frame_count + 1, sizeof *scene->frames);
-    return scene->objects && scene->occluders && scene->frames;
+    return scene->objects && scene->occluders && scene->sheets && scene->frames;
+}
+
+static bool read_owner(obs_cursor *cursor, const obs_scene *scene, uint32_t *owner,
+                       const char *what, uint32_t i)
+{
+    *owner = load_u32(cursor->bytes + cursor->at);
+    if (*owner >= scene->object_count)
+        return refuse(cursor, cursor->at,
+                      "expected the owner of %s %u to be below %u objects, found %u", what, i,
+                      scene->object_count, *owner);
+    cursor->at += 4;
+    return true;
 }
 
 static bool read_occluders(obs_cursor *cursor, obs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->occluder_count; i++) {
         obs_occluder *occluder = &scene->occluders[i];
-        if (!read_floats(cursor, (float *)&occluder->box, 12, "occluder", i)) return false;
-        occluder->owner = load_u32(cursor->bytes + cursor->at);
-        if (occluder->owner >= scene->object_count)
-            return refuse(cursor, cursor->at,
-                          "expected the owner of occluder %u to be below %u objects, found %u", i,
-                          scene->object_count, occluder->owner);
-        cursor->at += 4;
+        if (!read_floats(cursor, (float *)&occluder->box, 12, "occluder", i) ||
+            !read_owner(cursor, scene, &occluder->owner, "occluder", i))
+            return false;
     }
     return true;
+}
+
+// One scene has one file: what is not used is 0.
+static bool check_unused(const obs_cursor *cursor, const occ_sheet *sheet, uint32_t i)
+{
+    size_t unused = 12u * (OCC_SHEET_CORNERS - sheet->corner_count);
+    for (size_t k = 0; k < unused; k++)
+        if (cursor->bytes[cursor->at - unused + k] != 0)
+            return refuse(cursor, cursor->at - unused + k,
+                          "expected 0 beyond the %u corners of sheet %u", sheet->corner_count, i);
+    return true;
+}
+
+static bool read_sheet(obs_cursor *cursor, obs_scene *scene, uint32_t i)
+{
+    occ_sheet *sheet = &scene->sheets[i].sheet;
+    const uint8_t *bytes = cursor->bytes + cursor->at;
+    sheet->corner_count = load_u32(bytes);
+    if (sheet->corner_count < 3 || sheet->corner_count > OCC_SHEET_CORNERS)
+        return refuse(cursor, cursor->at, "expected 3 to %d corners in sheet %u, found %u",
+                      OCC_SHEET_CORNERS, i, sheet->corner_count);
+    uint32_t sides = load_u32(bytes + 4);
+    if (sides != OCC_SIDES_BOTH && sides != OCC_SIDES_FRONT)
+        return refuse(cursor, cursor->at + 4,
+                      "expected sheet %u to hide from both sides (0) or from its front (1), found "
+                      "%u",
+                      i, sides);
+    sheet->sides = (occ_sides)sides;
+    cursor->at += 8;
+    return read_floats(cursor, sheet->corner[0], 3u * OCC_SHEET_CORNERS, "sheet", i) &&
+           check_unused(cursor, sheet, i) &&
+           read_owner(cursor, scene, &scene->sheets[i].owner, "sheet", i);
 }
 
 static bool read_body(obs_cursor *cursor, obs_scene *scene)
@@ -141,6 +201,8 @@ static bool read_body(obs_cursor *cursor, obs_scene *scene)
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (!read_floats(cursor, (float *)&scene->objects[i], 12, "object", i)) return false;
     if (!read_occluders(cursor, scene)) return false;
+    for (uint32_t i = 0; i < scene->sheet_count; i++)
+        if (!read_sheet(cursor, scene, i)) return false;
     for (uint32_t i = 0; i < scene->frame_count; i++)
         if (!read_floats(cursor, (float *)&scene->frames[i], 38, "frame", i)) return false;
     return true;
@@ -206,13 +268,34 @@ bool obs_read(const char *path, obs_scene *scene)
 
 // --- writing -------------------------------------------------------------------------------------
 
-static void write_scene(FILE *stream, const obs_scene *scene)
+static void write_header(FILE *stream, const obs_scene *scene)
 {
-    uint8_t record[FRAME_BYTES] = {'O', 'B', 'S', '1'};
+    uint8_t record[HEADER_2_BYTES] = {'O', 'B', 'S', '1'};
+    size_t size = scene->sheet_count ? HEADER_2_BYTES : HEADER_BYTES;
     store_u32(record + 4, scene->object_count);
     store_u32(record + 8, scene->occluder_count);
-    store_u32(record + 12, scene->frame_count);
-    fwrite(record, 1, HEADER_BYTES, stream);
+    if (scene->sheet_count) {
+        record[3] = '2';
+        store_u32(record + 12, scene->sheet_count);
+    }
+    store_u32(record + size - 4, scene->frame_count);
+    fwrite(record, 1, size, stream);
+}
+
+static void write_sheet(FILE *stream, const obs_sheet *sheet)
+{
+    uint8_t record[SHEET_BYTES] = {0};
+    store_u32(record, sheet->sheet.corner_count);
+    store_u32(record + 4, (uint32_t)sheet->sheet.sides);
+    store_floats(record + 8, sheet->sheet.corner[0], 3u * sheet->sheet.corner_count);
+    store_u32(record + SHEET_BYTES - 4, sheet->owner);
+    fwrite(record, 1, SHEET_BYTES, stream);
+}
+
+static void write_scene(FILE *stream, const obs_scene *scene)
+{
+    uint8_t record[FRAME_BYTES];
+    write_header(stream, scene);
     for (uint32_t i = 0; i < scene->object_count; i++) {
         store_floats(record, (const float *)&scene->objects[i], 12);
         fwrite(record, 1, OBJECT_BYTES, stream);
@@ -222,6 +305,8 @@ static void write_scene(FILE *stream, const obs_scene *scene)
         store_u32(record + OBJECT_BYTES, scene->occluders[i].owner);
         fwrite(record, 1, OCCLUDER_BYTES, stream);
     }
+    for (uint32_t i = 0; i < scene->sheet_count; i++)
+        write_sheet(stream, &scene->sheets[i]);
     for (uint32_t i = 0; i < scene->frame_count; i++) {
         store_floats(record, (const float *)&scene->frames[i], 38);
         fwrite(record, 1, FRAME_BYTES, stream);
@@ -246,6 +331,7 @@ void obs_free(obs_scene *scene)
 {
     free(scene->objects);
     free(scene->occluders);
+    free(scene->sheets);
     free(scene->frames);
     *scene = (obs_scene){0};
 }
@@ -285,6 +371,20 @@ uint32_t obs_add_occluder(obs_scene *scene, const occ_box *box, uint32_t owner)
     scene->occluders = array;
     scene->occluders[scene->occluder_count] = (obs_occluder){*box, owner};
     return scene->occluder_count++;
+}
+
+uint32_t obs_add_sheet(obs_scene *scene, const occ_sheet *sheet, uint32_t owner)
+{
+    void *array = scene->sheets;
+    if (!make_room(scene, &array, scene->sheet_count, &scene->sheet_capacity,
+                   sizeof *scene->sheets))
+        return UINT32_MAX;
+    scene->sheets = array;
+    obs_sheet *added = &scene->sheets[scene->sheet_count];
+    *added = (obs_sheet){*sheet, owner};
+    for (uint32_t c = sheet->corner_count; c < OCC_SHEET_CORNERS; c++)
+        memset(added->sheet.corner[c], 0, sizeof added->sheet.corner[c]);
+    return scene->sheet_count++;
 }
 
 uint32_t obs_add_frame(obs_scene *scene, const obs_frame *frame)

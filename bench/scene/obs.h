@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Scene files (.obs, version 1): objects, occluders and a camera path. Little-endian, packed:
+/// Scene files (.obs): objects, occluders and a camera path. Little-endian, packed. Version 1 holds
+/// boxes alone, version 2 sheets too:
 ///
 ///     "OBS1"  u32 objects  u32 occluders  u32 frames
+///     "OBS2"  u32 objects  u32 occluders  u32 sheets  u32 frames
 ///     objects   x 12 f32: center, axis[3]
 ///     occluders x 12 f32 as above, u32 owner
+///     sheets    x u32 corners (3 to 8), u32 sides, 24 f32: corner[8] (those not used 0), u32 owner
 ///     frames    x 38 f32: eye[3], dir[3], view[16], proj[16]
+///
+/// Both are read; version 1 is written where there are no sheets. Boxes and sheets share one row of
+/// occluder numbers: boxes come first, then the sheets.
 #ifndef OCC_BENCH_OBS_H
 #define OCC_BENCH_OBS_H
 
 #include <occlude/scene.h>
 
-/// A solid box or flat sheet, and the index of the object that it is part of.
+/// A solid box or flat one, and the index of the object that it is part of.
 typedef struct obs_occluder {
     occ_box box;
     uint32_t owner;
 } obs_occluder;
+
+/// A sheet, and the index of the object that it is part of.
+typedef struct obs_sheet {
+    occ_sheet sheet;
+    uint32_t owner;
+} obs_sheet;
 
 /// A camera. The matrices are column-major with OpenGL's conventions (clip z in [-w, w]).
 typedef struct obs_frame {
@@ -24,11 +36,12 @@ typedef struct obs_frame {
 
 /// What a scene file holds. All zero is an empty scene; obs_free() it when done.
 typedef struct obs_scene {
-    uint32_t object_count, occluder_count, frame_count;
+    uint32_t object_count, occluder_count, sheet_count, frame_count;
     occ_box *objects;
-    obs_occluder *occluders;
+    obs_occluder *occluders; ///< Those that are boxes.
+    obs_sheet *sheets;
     obs_frame *frames;
-    uint32_t object_capacity, occluder_capacity, frame_capacity;
+    uint32_t object_capacity, occluder_capacity, sheet_capacity, frame_capacity;
     bool out_of_memory; ///< An obs_add_…() has failed: obs_write() will refuse.
 } obs_scene;
 
@@ -46,14 +59,38 @@ bool obs_write(const char *path, const obs_scene *scene);
 void obs_free(obs_scene *scene);
 
 /// Appends an object and returns its index. When memory runs out, sets `out_of_memory` and returns
-/// UINT32_MAX, as the next two do.
+/// UINT32_MAX, as the next three do.
 uint32_t obs_add_object(obs_scene *scene, const occ_box *box);
 
 /// Appends an occluder, part of the object `owner`, and returns its index.
 uint32_t obs_add_occluder(obs_scene *scene, const occ_box *box, uint32_t owner);
 
+/// Appends a sheet, part of the object `owner`, and returns its index. Corners beyond its count
+/// become 0.
+uint32_t obs_add_sheet(obs_scene *scene, const occ_sheet *sheet, uint32_t owner);
+
 /// Appends a frame and returns its index.
 uint32_t obs_add_frame(obs_scene *scene, const obs_frame *frame);
+
+/// How many occluders a scene has, boxes and sheets together.
+static inline uint32_t obs_occluder_total(const obs_scene *scene)
+{
+    return scene->occluder_count + scene->sheet_count;
+}
+
+/// The sheet that occluder `number` is, or NULL where it is a box.
+static inline const occ_sheet *obs_occluder_sheet(const obs_scene *scene, uint32_t number)
+{
+    uint32_t boxes = scene->occluder_count;
+    return number < boxes ? NULL : &scene->sheets[number - boxes].sheet;
+}
+
+/// The object that occluder `number`, a box or a sheet, is part of.
+static inline uint32_t obs_occluder_owner(const obs_scene *scene, uint32_t number)
+{
+    uint32_t boxes = scene->occluder_count;
+    return number < boxes ? scene->occluders[number].owner : scene->sheets[number - boxes].owner;
+}
 
 /// A perspective frame: eye, direction of view (any length but zero; y is up unless it looks
 /// straight up or down), cotangent of half the vertical field of view, width over height, and the
