@@ -19,8 +19,10 @@ static occ_result fill_scene(const obs_scene *file, const build_arrays *arrays,
     occ_result result =
         occ_scene_add_many(build->scene, file->objects, file->object_count, arrays->objects);
     if (result) return result;
-    for (uint32_t i = 0; i < file->occluder_count; i++)
-        arrays->owners[i] = arrays->objects[file->occluders[i].owner];
+    for (uint32_t i = 0; i < file->occluder_count; i++) {
+        uint32_t owner = file->occluders[i].owner;
+        arrays->owners[i] = owner == OBS_NO_OWNER ? (occ_object){0} : arrays->objects[owner];
+    }
     build->step = "adding the occluders";
     return occ_scene_add_occluders(build->scene, arrays->boxes, arrays->owners,
                                    file->occluder_count, NULL);
