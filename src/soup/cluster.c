@@ -15,6 +15,9 @@
 // A cluster costs as much as so many of the triangles allowed in one, beside its own.
 #define OVERHEAD 0.25
 
+// A box is taken to be larger by this share of the soup's extent.
+#define RIM 0x1p-10
+
 // Groups on the stack at any time: one for each cut that led to the group at hand. From 2^32 units
 // down to 2^10 each cut leaves at most 31 parts of 32 (480 cuts), then at least one unit less.
 #define MOST_CUTS 1536u
@@ -83,8 +86,9 @@ static void add_triangle(const split_call *s, occ_cluster_unit *u, uint32_t tria
     occ_soup_corners(s->soup, triangle, corner);
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < 3; k++) {
-            u->min[k] = fminf(u->min[k], corner[c][k]);
-            u->max[k] = fmaxf(u->max[k], corner[c][k]);
+            float at = corner[c][k];
+            u->min[k] = at < u->min[k] ? at : u->min[k];
+            u->max[k] = at > u->max[k] ? at : u->max[k];
         }
     u->weight++;
 }
@@ -112,6 +116,20 @@ static occ_result make_units(split_call *s)
         add_triangle(s, u, t);
     }
     return OCC_SUCCESS;
+}
+
+static double rim_of(const split_call *s)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        float low = INFINITY, high = -INFINITY;
+        for (uint32_t i = 0; i < s->unit_count; i++) {
+            low = s->units[i].min[k] < low ? s->units[i].min[k] : low;
+            high = s->units[i].max[k] > high ? s->units[i].max[k] : high;
+        }
+        sum += (double)high - (double)low;
+    }
+    return RIM * sum;
 }
 
 // --- clusters ------------------------------------------------------------------------------------
@@ -197,6 +215,7 @@ static occ_result split_soup(split_call *s)
     if (s->listed && s->units && s->cutter.keys && s->cutter.cost_from && by_label &&
         list_triangles(s)) {
         result = make_units(s);
+        s->cutter.rim = rim_of(s);
         if (!result) result = split_labels(s, by_label);
     } else {
         (void)occ_fail(s->hooks, result, "no memory to split %zu triangles in", count);

@@ -23,6 +23,7 @@ typedef struct occ_cluster_cutter {
     occ_cluster_key *keys; // one for each unit, in the order of the groups
     double *cost_from;     // of all units from one on, as long
     double overhead;       // what a cluster costs beside its triangles, in triangles
+    double rim;            // by how much boxes are taken to be larger than they are
     uint32_t most;         // triangles in a cluster
 } occ_cluster_cutter;
 

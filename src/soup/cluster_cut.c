@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A group is cut where the surface areas of the two halves' boxes, weighted with what they hold,
 // add up to least (the surface area heuristic: MacDonald and Booth, The Visual Computer 6, 1990). A
-// box's area is how likely it is to be seen, so the sum is the cost of drawing what is seen. Small
+// box's area is how likely it is to be seen, so the sum is the cost of drawing what is seen. That
+// of flat boxes would be the same for strips as for squares; but what is nearly in sight counts as
+// well, so boxes are taken to be a little larger than they are: then strips cost more. Small
 // groups are sorted along each axis and every cut is tried; large ones are counted into slots
 // first, and only cuts between slots are (Wald, Interactive Ray Tracing 2007).
 #include "soup/cluster.h"
@@ -20,6 +22,7 @@ typedef struct extent {
 typedef struct cut {
     double cost;
     uint32_t at;
+    uint32_t least; // units in the smaller half
     int axis;
 } cut;
 
@@ -38,14 +41,15 @@ static void hold(extent *e, const float min[3], const float max[3])
     }
 }
 
-// Half of its surface. Coordinates are at most OCC_MAX_COORDINATE, so nothing overflows.
+// From half of its surface, with the rim. Coordinates are at most OCC_MAX_COORDINATE, so nothing
+// overflows.
 static double cost_of(const occ_cluster_cutter *c, const extent *e, uint64_t weight)
 {
     double side[3];
     for (int k = 0; k < 3; k++)
         side[k] = (double)e->max[k] - (double)e->min[k];
     double area = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
-    return area * ((double)weight + c->overhead);
+    return (area + c->rim * (side[0] + side[1] + side[2])) * ((double)weight + c->overhead);
 }
 
 static float middle_of(const occ_cluster_unit *u, int axis)
@@ -56,6 +60,19 @@ static float middle_of(const occ_cluster_unit *u, int axis)
 static uint32_t margin_of(uint32_t count)
 {
     return count > OCC_CLUSTER_MARGIN * OCC_CLUSTER_MARGIN ? count / OCC_CLUSTER_MARGIN : 1;
+}
+
+// Whether a cut is better than the best so far: of those that cost as much, but for rounding, the
+// one with more even halves is. `least` is how many of `count` units the smaller half has.
+static bool is_better(double cost, uint32_t least, const cut *best)
+{
+    if (!best->at || cost < best->cost * (1.0 - 0x1p-30)) return cost < best->cost;
+    return cost <= best->cost * (1.0 + 0x1p-30) && least > best->least;
+}
+
+static uint32_t lesser(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
 }
 
 // --- every cut -----------------------------------------------------------------------------------
@@ -94,7 +111,8 @@ static void try_sorted(const occ_cluster_cutter *c, const occ_cluster_key *keys,
         weight += u->weight;
         if (i < margin) continue;
         double cost = cost_of(c, &e, weight) + c->cost_from[i];
-        if (cost < best->cost) *best = (cut){cost, i, axis};
+        uint32_t least = lesser(i, count - i);
+        if (is_better(cost, least, best)) *best = (cut){cost, i, least, axis};
     }
 }
 
@@ -102,7 +120,7 @@ static void try_sorted(const occ_cluster_cutter *c, const occ_cluster_key *keys,
 static uint32_t cut_sorted(const occ_cluster_cutter *c, occ_cluster_key *keys, uint32_t count,
                            double limit)
 {
-    cut best = {limit, 0, 0};
+    cut best = {limit, 0, 0, 0};
     for (int axis = 0; axis < 3; axis++) {
         sort_along(c, keys, count, axis);
         try_sorted(c, keys, count, axis, &best);
@@ -165,7 +183,8 @@ static void try_slots(const occ_cluster_cutter *c, const slot slots[SLOTS], uint
         units += slots[i - 1].units;
         if (units < margin || count - units < margin) continue;
         double cost = cost_of(c, &e, weight) + cost_from[i];
-        if (cost < best->cost) *best = (cut){cost, i, axis};
+        uint32_t least = lesser(units, count - units);
+        if (is_better(cost, least, best)) *best = (cut){cost, i, least, axis};
     }
 }
 
@@ -189,7 +208,7 @@ static uint32_t cut_slots(const occ_cluster_cutter *c, occ_cluster_key *keys, ui
     extent middles = NOTHING;
     slotting s[3];
     slot slots[SLOTS];
-    cut best = {INFINITY, 0, 0};
+    cut best = {INFINITY, 0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
         float middle[3];
         for (int k = 0; k < 3; k++)
