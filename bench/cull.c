@@ -128,7 +128,7 @@ static void write_rows(FILE *stream, const cull_arguments *arguments, const obs_
             "# scene=%s\n# method=%s\n# backend=%s\n# threads=%u\n# repeats=%u\n# objects=%u\n"
             "# occluders=%u\n",
             arguments->scene, settings->method, settings->backend, result->threads,
-            settings->repeats, scene->object_count, scene->occluder_count);
+            settings->repeats, scene->object_count, obs_occluder_total(scene));
     fputs("frame_index,eye_x_world,eye_y_world,eye_z_world,time_ms,walk_ms,test_ms,"
           "in_frustum_objects,visible_objects,occluders_used,occluders_tested,nodes_tested,"
           "tested_objects,walk_outside_objects,walk_hidden_objects,test_outside_objects,"
@@ -159,7 +159,7 @@ static void print_memory(const obs_scene *scene, const measure_result *result)
 {
     double objects = scene->object_count ? scene->object_count : 1;
     printf("build_ms=%.2f commit_ms=%.2f (%u objects, %u occluders, all trees)\n", result->build_ms,
-           result->commit_ms, scene->object_count, scene->occluder_count);
+           result->commit_ms, scene->object_count, obs_occluder_total(scene));
     printf("memory %llu bytes (scene %llu, view %llu), %.1f bytes per object\n",
            (unsigned long long)result->held_bytes, (unsigned long long)result->scene_bytes,
            (unsigned long long)result->view_bytes, (double)result->held_bytes / objects);

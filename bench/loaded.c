@@ -18,7 +18,7 @@ static bool out_of_memory(void)
     return false;
 }
 
-static bool add_occluders(loaded_scene *l)
+static bool add_boxes(loaded_scene *l)
 {
     size_t count = l->file->occluder_count;
     occ_box *boxes = malloc((count + 1) * sizeof *boxes);
@@ -38,9 +38,29 @@ static bool add_occluders(loaded_scene *l)
     return good;
 }
 
+static bool add_sheets(loaded_scene *l)
+{
+    size_t count = l->file->sheet_count;
+    occ_sheet *sheets = malloc((count + 1) * sizeof *sheets);
+    occ_object *owners = malloc((count + 1) * sizeof *owners);
+    bool good = sheets && owners;
+    for (size_t i = 0; good && i < count; i++) {
+        sheets[i] = l->file->sheets[i].sheet;
+        uint32_t owner = l->file->sheets[i].owner;
+        owners[i] = owner == OBS_NO_OWNER ? (occ_object){0} : l->objects[owner];
+    }
+    good = good ? loaded_succeeded(occ_scene_add_sheets(l->scene, sheets, owners, count,
+                                                        l->occluders + l->file->occluder_count),
+                                   "adding the sheets")
+                : out_of_memory();
+    free(sheets);
+    free(owners);
+    return good;
+}
+
 static bool invert_occluders(loaded_scene *l)
 {
-    uint32_t count = l->file->occluder_count, most = 0;
+    uint32_t count = obs_occluder_total(l->file), most = 0;
     for (uint32_t i = 0; i < count; i++)
         if (l->occluders[i].index > most) most = l->occluders[i].index;
     l->places = calloc((size_t)most + 1, sizeof *l->places);
@@ -54,15 +74,15 @@ static bool fill(loaded_scene *l)
 {
     const obs_scene *file = l->file;
     const occ_scene_desc desc = {.object_count = file->object_count,
-                                 .occluder_count = file->occluder_count};
+                                 .occluder_count = obs_occluder_total(file)};
     l->objects = calloc((size_t)file->object_count + 1, sizeof *l->objects);
-    l->occluders = calloc((size_t)file->occluder_count + 1, sizeof *l->occluders);
+    l->occluders = calloc((size_t)obs_occluder_total(file) + 1, sizeof *l->occluders);
     if (!l->objects || !l->occluders) return out_of_memory();
     return loaded_succeeded(occ_scene_create(&desc, &l->scene), "making the scene") &&
            loaded_succeeded(
                occ_scene_add_many(l->scene, file->objects, file->object_count, l->objects),
                "adding the objects") &&
-           add_occluders(l) && invert_occluders(l) &&
+           add_boxes(l) && add_sheets(l) && invert_occluders(l) &&
            loaded_succeeded(occ_scene_commit(l->scene), "committing the scene");
 }
 
@@ -77,7 +97,7 @@ bool loaded_build(const obs_scene *file, loaded_scene *out)
 bool loaded_explain(const loaded_scene *loaded, const occ_view *view, uint32_t object,
                     occ_fate *fate, uint32_t *places, size_t *count)
 {
-    size_t capacity = loaded->file->occluder_count;
+    size_t capacity = obs_occluder_total(loaded->file);
     occ_occluder *culprits = malloc((capacity + 1) * sizeof *culprits);
     *count = 0;
     if (!culprits) return out_of_memory();

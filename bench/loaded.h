@@ -12,7 +12,7 @@
 typedef struct loaded_scene {
     const obs_scene *file;
     occ_scene *scene;
-    occ_object *objects; ///< In the file's order, as the occluders.
+    occ_object *objects; ///< In the file's order, as the occluders: boxes, then sheets.
     occ_occluder *occluders;
     uint32_t *places; ///< The place in the file of the occluder with a handle's index.
 } loaded_scene;

@@ -103,7 +103,7 @@ const char *measure_complete(measure_settings *settings)
 
 const char *measure_warning(const measure_settings *settings, const obs_scene *scene)
 {
-    double objects = scene->object_count, occluders = scene->occluder_count;
+    double objects = scene->object_count, occluders = obs_occluder_total(scene);
     const peer_method *peer = peer_find(settings->method);
     if (peer && peer->is_quadratic && objects > 5000)
         return "the thesis's method tries all pairs of objects: --force runs it on more than 5000";

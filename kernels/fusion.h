@@ -22,7 +22,7 @@ typedef struct occ_fusion {
 // How many planes of a shadow are silhouettes; those of faces come after them.
 OCC_FN occ_u32 occ_shadow_silhouettes(OCC_GLOBAL const occ_shadow *shadow)
 {
-    return shadow->planes == 5u ? 4u : 6u;
+    return shadow->silhouettes;
 }
 
 // The sum of three corners of a piece: three times a point inside.

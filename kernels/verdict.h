@@ -13,9 +13,10 @@
 // planes. A plane is four floats, n and d, inside where n.x + d > 0.
 typedef struct occ_shadow {
     float plane[OCC_SHADOW_PLANES][4]; // silhouette planes, then the visible faces
-    occ_u32 planes;                    // how many of them: 5, 8 or 9
+    occ_u32 planes;                    // how many of them: of a box 5, 8 or 9, of a sheet 4 to 9
     occ_u32 owner;                     // row of the object that it must not hide, or OCC_NOBODY
-    occ_u32 pad[2];
+    occ_u32 silhouettes;               // how many planes come before those of faces
+    occ_u32 pad;
 } occ_shadow;
 
 // The camera, as the test needs it.

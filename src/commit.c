@@ -143,6 +143,7 @@ static void drop_orphans(occ_scene *scene)
         uint32_t slot = rows->slot_of[row], owner = rows->owner_of[row];
         if (slot == OCC_NO_SLOT || owner == OCC_NO_SLOT) continue;
         if (occ_slots_is_taken(&scene->objects, owner)) continue;
+        occ_scene_drop_sheet(scene, row);
         rows->slot_of[row] = OCC_NO_SLOT;
         occ_slots_release(&scene->occluders, slot);
         scene->occluders_reordered = true;

@@ -66,6 +66,9 @@ void occ_occluders_prepare(occ_frame *frame);
 // Whether one with this reach may, at this distance at least.
 bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key);
 
+// Whether a sheet looks large enough, and shows a side from which it hides.
+bool occ_occluder_sheet_is_large(const occ_frame *frame, const occ_sheet *sheet);
+
 // Makes the shadow of the occluder in a row and adds it to the set, if it has one.
 occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const occ_projection *seen);
 

@@ -17,14 +17,16 @@
 #define OCC_NO_PLANE_AT  1e30f // the offset in lanes without a plane
 
 // One shadow with its planes side by side, in two lines of cache: coordinate j of plane p is
-// plane[j][p]. Silhouettes begin at lane 0, faces at OCC_FACE_LANE; the third face, if there is
-// one, is `last`. Everything is inside the planes of the other lanes.
+// plane[j][p]. Silhouettes begin at lane 0, faces at OCC_FACE_LANE; a third face, and the one of a
+// sheet whose silhouettes take up more lanes, is `last`. Everything is inside the planes of the
+// other lanes.
 typedef struct occ_wide_shadow {
     float plane[4][OCC_PLANE_LANES];
     float last[4];
     uint32_t owner;  // as in occ_shadow
     uint32_t planes; // bit p: lane p has a plane; bit OCC_PLANE_LANES speaks of `last`
-    uint32_t pad[10];
+    uint32_t faces;  // those of them that are of faces
+    uint32_t pad[9];
 } occ_wide_shadow;
 
 void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow);

@@ -37,9 +37,11 @@ void occ_wide_shadow_set(occ_wide_shadow *wide, const occ_shadow *shadow)
         wide->plane[3][l] = OCC_NO_PLANE_AT;
     wide->last[3] = OCC_NO_PLANE_AT;
     uint32_t silhouettes = occ_shadow_silhouettes(shadow);
+    uint32_t first_face = silhouettes > OCC_FACE_LANE ? OCC_PLANE_LANES : OCC_FACE_LANE;
     for (uint32_t p = 0; p < shadow->planes; p++) {
-        uint32_t lane = p < silhouettes ? p : OCC_FACE_LANE + p - silhouettes;
+        uint32_t lane = p < silhouettes ? p : first_face + p - silhouettes;
         wide->planes |= 1u << lane;
+        wide->faces |= p < silhouettes ? 0u : 1u << lane;
         for (uint32_t j = 0; j < 4; j++)
             *(lane < OCC_PLANE_LANES ? &wide->plane[j][lane] : &wide->last[j]) =
                 shadow->plane[p][j];

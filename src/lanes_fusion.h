@@ -44,7 +44,7 @@ typedef struct contact {
     uint32_t cutting; // planes that cut the box
 } contact;
 
-// The third face, if there is one.
+// The last face, if it lies there.
 static inline void meet_last_plane(contact *met, const occ_wide_shadow *shadow,
                                    const occ_relative_box *box)
 {
@@ -112,8 +112,8 @@ static inline bool is_behind(const occ_relative_box *box, const occ_wide_shadow 
     fnode z = load_node(shadow->plane[2] + l), d = load_node(shadow->plane[3] + l);
     fnode s = OCC_PLANE_AT(x, y, z, d, t[0], t[1], t[2]);
     uint32_t inside = above_node(s - reach_along(x, y, z, a), splat_node(box->e)) << l;
-    if (shadow->planes & ~inside & (3u << OCC_FACE_LANE)) return false;
-    return !(shadow->planes >> OCC_PLANE_LANES) || occ_box_in_shadow(box, shadow->last, 1);
+    if (shadow->faces & ~inside & 0xffu) return false;
+    return !(shadow->faces >> OCC_PLANE_LANES) || occ_box_in_shadow(box, shadow->last, 1);
 }
 
 // As occ_shadow_holds_point().

@@ -3,23 +3,31 @@
 
 #include <string.h>
 
-#define ROW_BYTES (sizeof(occ_box) + 2 * sizeof(uint32_t))
+static size_t row_bytes(bool sheets)
+{
+    return sizeof(occ_box) + (sheets ? 3 : 2) * sizeof(uint32_t);
+}
 
 // A table without rows. `boxes` is NULL if there is no memory, or no capacity.
-static occ_occluder_rows make_rows(occ_hooks *hooks, size_t capacity)
+static occ_occluder_rows make_rows(occ_hooks *hooks, size_t capacity, bool sheets)
 {
     occ_occluder_rows rows = {.capacity = (uint32_t)capacity};
-    rows.boxes = capacity > SIZE_MAX / ROW_BYTES ? NULL : occ_alloc(hooks, capacity * ROW_BYTES);
+    size_t bytes = row_bytes(sheets);
+    rows.boxes = capacity > SIZE_MAX / bytes ? NULL : occ_alloc(hooks, capacity * bytes);
     if (!rows.boxes) return (occ_occluder_rows){.capacity = 0};
     rows.slot_of = (uint32_t *)(rows.boxes + capacity);
     rows.owner_of = rows.slot_of + capacity;
+    if (sheets) rows.sheet_of = rows.owner_of + capacity;
     return rows;
 }
 
-occ_result occ_occluder_rows_reserve(occ_hooks *hooks, occ_occluder_rows *rows, uint32_t capacity)
+occ_result occ_occluder_rows_reserve(occ_hooks *hooks, occ_occluder_rows *rows, uint32_t capacity,
+                                     bool sheets)
 {
-    if (capacity <= rows->capacity) return OCC_SUCCESS;
-    occ_occluder_rows grown = make_rows(hooks, capacity);
+    sheets = sheets || rows->sheet_of;
+    if (capacity <= rows->capacity && sheets == (rows->sheet_of != NULL)) return OCC_SUCCESS;
+    if (capacity < rows->capacity) capacity = rows->capacity;
+    occ_occluder_rows grown = make_rows(hooks, capacity, sheets);
     if (!grown.boxes) return OCC_ERROR_OUT_OF_MEMORY;
     grown.count = rows->count;
     if (rows->count) {
@@ -27,6 +35,8 @@ occ_result occ_occluder_rows_reserve(occ_hooks *hooks, occ_occluder_rows *rows, 
         memcpy(grown.slot_of, rows->slot_of, rows->count * sizeof *rows->slot_of);
         memcpy(grown.owner_of, rows->owner_of, rows->count * sizeof *rows->owner_of);
     }
+    for (uint32_t row = 0; sheets && row < rows->count; row++)
+        grown.sheet_of[row] = rows->sheet_of ? rows->sheet_of[row] : OCC_NO_SLOT;
     occ_occluder_rows_free(hooks, rows);
     *rows = grown;
     return OCC_SUCCESS;
@@ -34,7 +44,7 @@ occ_result occ_occluder_rows_reserve(occ_hooks *hooks, occ_occluder_rows *rows, 
 
 void occ_occluder_rows_free(occ_hooks *hooks, occ_occluder_rows *rows)
 {
-    occ_free(hooks, rows->boxes, rows->capacity * ROW_BYTES);
+    occ_free(hooks, rows->boxes, rows->capacity * row_bytes(rows->sheet_of != NULL));
     *rows = (occ_occluder_rows){.capacity = 0};
 }
 
@@ -56,6 +66,7 @@ static void gather_part(void *context, uint32_t part)
         to.boxes[i] = from.boxes[row];
         to.slot_of[i] = from.slot_of[row];
         to.owner_of[i] = from.owner_of[row];
+        if (to.sheet_of) to.sheet_of[i] = from.sheet_of[row];
         job->row_of[from.slot_of[row]] = i;
     }
 }
@@ -64,7 +75,7 @@ static void gather_part(void *context, uint32_t part)
 occ_result occ_occluder_rows_gather(occ_hooks *hooks, occ_occluder_rows *rows, occ_slots *slots,
                                     const uint32_t *source, uint32_t count, occ_team *team)
 {
-    occ_occluder_rows gathered = make_rows(hooks, rows->capacity);
+    occ_occluder_rows gathered = make_rows(hooks, rows->capacity, rows->sheet_of != NULL);
     if (rows->capacity && !gathered.boxes) return OCC_ERROR_OUT_OF_MEMORY;
     gathered.count = count;
     gather_job job = {rows, &gathered, source, slots->value, occ_parts_of(count)};

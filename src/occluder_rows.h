@@ -11,15 +11,18 @@
 #include <occlude/scene.h>
 
 typedef struct occ_occluder_rows {
-    occ_box *boxes;     // and behind them, in one block of memory:
+    occ_box *boxes;     // of a sheet its proxy; and behind them, in one block of memory:
     uint32_t *slot_of;  // OCC_NO_SLOT where an occluder was removed
     uint32_t *owner_of; // the owner's slot; OCC_NO_SLOT where nobody owns it
+    uint32_t *sheet_of; // where a sheet lies among the scene's; OCC_NO_SLOT for a box. NULL as long
+                        // as there has been no sheet
     uint32_t count;
     uint32_t capacity;
 } occ_occluder_rows;
 
-// Makes room for `capacity` rows. On failure nothing changes.
-occ_result occ_occluder_rows_reserve(occ_hooks *hooks, occ_occluder_rows *rows, uint32_t capacity);
+// Makes room for `capacity` rows, and for `sheets` among them. On failure nothing changes.
+occ_result occ_occluder_rows_reserve(occ_hooks *hooks, occ_occluder_rows *rows, uint32_t capacity,
+                                     bool sheets);
 
 void occ_occluder_rows_free(occ_hooks *hooks, occ_occluder_rows *rows);
 

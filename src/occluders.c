@@ -3,6 +3,7 @@
 #include "frame.h"
 
 #include "shadow.h"
+#include "sheet.h"
 #include "vector.h"
 
 _Static_assert(OCC_NO_SLOT == OCC_NOBODY, "an owner's row is what a shadow knows of it");
@@ -34,6 +35,25 @@ bool occ_occluder_may_be_large(const occ_frame *frame, float reach, float key)
     const occ_camera *camera = &frame->camera;
     double area = camera->orthographic ? camera->view_area : (double)key * (1.0 - 1e-5);
     return (double)reach >= (double)frame->knobs.min_area * area;
+}
+
+bool occ_occluder_sheet_is_large(const occ_frame *frame, const occ_sheet *sheet)
+{
+    const occ_camera *camera = &frame->camera;
+    double normal[3], toward[3], distance = 0.0;
+    occ_sheet_normal(sheet, normal);
+    for (int j = 0; j < 3; j++) {
+        double sum = 0.0;
+        for (uint32_t i = 0; i < sheet->corner_count; i++)
+            sum += (double)sheet->corner[i][j];
+        toward[j] = camera->eye[j] - sum / sheet->corner_count;
+        if (camera->orthographic) toward[j] = camera->toward[j];
+        distance += toward[j] * toward[j];
+    }
+    double shown = 0.5 * occ_dot(normal, toward);
+    if (sheet->sides == OCC_SIDES_BOTH) shown = fabs(shown);
+    double unit = camera->orthographic ? camera->view_area : distance;
+    return shown > 0.0 && shown >= (double)frame->selection.least * sqrt(distance) * unit;
 }
 
 // How far outside of its bounds on the screen an occluder's shadow may reach. Projections round by
@@ -78,7 +98,10 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     if (!shadow || !source || !wide) return OCC_ERROR_OUT_OF_MEMORY;
     if (!occ_frame_extend(frame, &frame->rects, 1)) return OCC_ERROR_OUT_OF_MEMORY;
     const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
-    if (!occ_shadow_init(shadow, &frame->camera, box, owner)) return OCC_SUCCESS;
+    const occ_sheet *sheet = occ_scene_sheet(scene, row);
+    bool hides = sheet ? occ_shadow_of_sheet(shadow, &frame->camera, sheet, owner)
+                       : occ_shadow_init(shadow, &frame->camera, box, owner);
+    if (!hides) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);
     *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
     if (!lane)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Making scenes and editing them. Edits touch only tables; occ_scene_commit() (commit.c) follows up
-// with the octrees.
-#include "scene_data.h"
+// Making scenes and editing their objects; scene_occluders.c has the occluders. Edits touch only
+// tables; occ_scene_commit() (commit.c) follows up with the octrees.
+#include "scene_edit.h"
 
 #include "box.h"
 #include "log.h"
@@ -12,7 +12,6 @@
 
 #define DEFAULT_LEAF_OBJECTS 64u
 #define MOST_LEAF_OBJECTS    1024u
-#define MOST_ITEMS           (UINT32_MAX - 2u * OCC_BOX_LANES)
 
 static atomic_uint_least64_t scenes_made;
 
@@ -43,22 +42,13 @@ occ_tree_items occ_scene_occluder_items(const occ_scene *scene, uint32_t first)
 static occ_result reserve_objects(occ_scene *scene, size_t more)
 {
     size_t rows = scene->boxes.count + more;
-    if (more > MOST_ITEMS || rows > MOST_ITEMS) return OCC_ERROR_LIMIT;
+    if (more > OCC_MOST_ITEMS || rows > OCC_MOST_ITEMS) return OCC_ERROR_LIMIT;
     occ_result result = occ_slots_reserve(&scene->hooks, &scene->objects, more);
     if (result || rows <= scene->slot_of.capacity) return result;
     size_t grown = (size_t)scene->slot_of.capacity + scene->slot_of.capacity / 8;
     if (grown < rows) grown = rows;
     result = occ_boxes_reserve(&scene->hooks, &scene->boxes, grown);
     return result ? result : occ_array_reserve(&scene->hooks, &scene->slot_of, grown);
-}
-
-// A row for each slot is enough: until a commit no slot is used twice.
-static occ_result reserve_occluders(occ_scene *scene, size_t more)
-{
-    occ_result result = occ_slots_reserve(&scene->hooks, &scene->occluders, more);
-    if (result) return result;
-    return occ_occluder_rows_reserve(&scene->hooks, &scene->occluder_rows,
-                                     scene->occluders.capacity);
 }
 
 occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
@@ -85,6 +75,7 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
                         .objects = OCC_SLOTS,
                         .slot_of = OCC_ARRAY(uint32_t),
                         .occluders = OCC_SLOTS,
+                        .sheets = OCC_SHEETS,
                         .attached = OCC_ARRAY(occ_attached),
                         .reach = OCC_ARRAY(float),
                         .changed = OCC_ARRAY(uint32_t)};
@@ -93,7 +84,7 @@ occ_result occ_scene_create(const occ_scene_desc *desc, occ_scene **scene)
     made->object_tree = made->occluder_tree = empty;
     result = occ_team_create(&made->hooks, occ_threads_offered(desc->threads), &made->team);
     if (!result) result = reserve_objects(made, desc->object_count);
-    if (!result) result = reserve_occluders(made, desc->occluder_count);
+    if (!result) result = occ_scene_reserve_occluders(made, desc->occluder_count, false);
     if (result) {
         occ_fail(&hooks, result, "no memory for %u objects and %u occluders", desc->object_count,
                  desc->occluder_count);
@@ -114,6 +105,7 @@ void occ_scene_destroy(occ_scene *scene)
     occ_octree_free(&hooks, &scene->object_tree);
     occ_slots_free(&hooks, &scene->occluders);
     occ_occluder_rows_free(&hooks, &scene->occluder_rows);
+    occ_sheets_free(&hooks, &scene->sheets);
     occ_octree_free(&hooks, &scene->occluder_tree);
     occ_array_free(&hooks, &scene->attached);
     occ_array_free(&hooks, &scene->reach);
@@ -122,17 +114,16 @@ void occ_scene_destroy(occ_scene *scene)
     occ_free(&hooks, scene, sizeof *scene);
 }
 
-static occ_result missing(const occ_scene *scene, const char *what)
+occ_result occ_scene_missing(const occ_scene *scene, const char *what)
 {
     return occ_fail(&scene->hooks, OCC_ERROR_INVALID_ARGUMENT, "%s NULL", what);
 }
 
-// Checks `count` boxes and names the first bad one.
-static occ_result check_boxes(const occ_scene *scene, const occ_box *boxes, size_t count,
-                              const char *what)
+occ_result occ_scene_check_boxes(const occ_scene *scene, const occ_box *boxes, size_t count,
+                                 const char *what)
 {
-    if (count && !boxes) return missing(scene, "the boxes are");
-    if (count > MOST_ITEMS) {
+    if (count && !boxes) return occ_scene_missing(scene, "the boxes are");
+    if (count > OCC_MOST_ITEMS) {
         return occ_fail(&scene->hooks, OCC_ERROR_LIMIT, "%zu %s", count, what);
     }
     uint32_t bad = occ_boxes_first_bad(boxes, (uint32_t)count, scene->team);
@@ -142,8 +133,8 @@ static occ_result check_boxes(const occ_scene *scene, const occ_box *boxes, size
                     occ_result_message(result));
 }
 
-static occ_result stale(const occ_scene *scene, const char *what, uint32_t index,
-                        uint32_t generation)
+occ_result occ_scene_stale(const occ_scene *scene, const char *what, uint32_t index,
+                           uint32_t generation)
 {
     return occ_fail(&scene->hooks, OCC_ERROR_STALE_HANDLE, "%s {%u, %u}", what, index, generation);
 }
@@ -152,7 +143,7 @@ occ_result occ_scene_add_many(occ_scene *scene, const occ_box *boxes, size_t cou
                               occ_object *objects)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    occ_result result = check_boxes(scene, boxes, count, "objects");
+    occ_result result = occ_scene_check_boxes(scene, boxes, count, "objects");
     if (result || !count) return result;
     result = reserve_objects(scene, count);
     if (result) return occ_fail(&scene->hooks, result, "no room for %zu more objects", count);
@@ -171,12 +162,11 @@ occ_result occ_scene_add_many(occ_scene *scene, const occ_box *boxes, size_t cou
 occ_result occ_scene_add(occ_scene *scene, const occ_box *box, occ_object *object)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    if (!box || !object) return missing(scene, "the box or the object is");
+    if (!box || !object) return occ_scene_missing(scene, "the box or the object is");
     return occ_scene_add_many(scene, box, 1, object);
 }
 
-// Whether two boxes have one key, so that the tree's order does not change.
-static bool same_key(const occ_octree *tree, const occ_box *a, const occ_box *b)
+bool occ_same_key(const occ_octree *tree, const occ_box *a, const occ_box *b)
 {
     float min[2][3], max[2][3];
     occ_box_bounds(a, min[0], max[0]);
@@ -202,7 +192,7 @@ static void move_object(occ_scene *scene, uint32_t slot, const occ_box *box)
     uint32_t row = scene->objects.value[slot];
     if (!scene->objects_reordered) {
         occ_box old = occ_boxes_get(&scene->boxes, row);
-        if (same_key(&scene->object_tree, &old, box)) {
+        if (occ_same_key(&scene->object_tree, &old, box)) {
             mark_row(scene, row);
         } else {
             scene->objects_reordered = true;
@@ -215,11 +205,11 @@ occ_result occ_scene_move_many(occ_scene *scene, const occ_object *objects, cons
                                size_t count)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    if (count && !objects) return missing(scene, "the objects are");
-    occ_result result = check_boxes(scene, boxes, count, "to move");
+    if (count && !objects) return occ_scene_missing(scene, "the objects are");
+    occ_result result = occ_scene_check_boxes(scene, boxes, count, "to move");
     for (size_t i = 0; i < count && !result; i++) {
         if (!occ_scene_contains(scene, objects[i])) {
-            result = stale(scene, "object", objects[i].index, objects[i].generation);
+            result = occ_scene_stale(scene, "object", objects[i].index, objects[i].generation);
         }
     }
     for (size_t i = 0; i < count && !result; i++)
@@ -236,83 +226,12 @@ occ_result occ_scene_remove(occ_scene *scene, occ_object object)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
     uint32_t slot = occ_slots_find(&scene->objects, object.index, object.generation);
-    if (slot == OCC_NO_SLOT) return stale(scene, "object", object.index, object.generation);
+    if (slot == OCC_NO_SLOT)
+        return occ_scene_stale(scene, "object", object.index, object.generation);
     ((uint32_t *)scene->slot_of.data)[scene->objects.value[slot]] = OCC_NO_SLOT;
     occ_slots_release(&scene->objects, slot);
     scene->objects_reordered = true;
     scene->owners_removed = true;
-    return OCC_SUCCESS;
-}
-
-occ_result occ_scene_add_occluders(occ_scene *scene, const occ_box *boxes, const occ_object *owners,
-                                   size_t count, occ_occluder *occluders)
-{
-    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    occ_result result = check_boxes(scene, boxes, count, "occluders");
-    for (size_t i = 0; owners && i < count && !result; i++) {
-        if ((owners[i].index || owners[i].generation) && !occ_scene_contains(scene, owners[i])) {
-            result = stale(scene, "owner", owners[i].index, owners[i].generation);
-        }
-    }
-    if (result || !count) return result;
-    result = reserve_occluders(scene, count);
-    if (result) return occ_fail(&scene->hooks, result, "no room for %zu more occluders", count);
-    occ_occluder_rows *rows = &scene->occluder_rows;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t row = rows->count++;
-        uint32_t slot = occ_slots_take(&scene->occluders, row);
-        rows->boxes[row] = boxes[i];
-        rows->slot_of[row] = slot;
-        rows->owner_of[row] = owners ? owners[i].index - 1u : OCC_NO_SLOT; // 0 - 1 is OCC_NO_SLOT
-        if (occluders) occluders[i] = (occ_occluder){slot + 1, scene->occluders.generation[slot]};
-    }
-    scene->occluders_reordered = true;
-    return OCC_SUCCESS;
-}
-
-occ_result occ_scene_add_occluder(occ_scene *scene, const occ_box *box, occ_object owner,
-                                  occ_occluder *occluder)
-{
-    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    return occ_scene_add_occluders(scene, box, &owner, 1, occluder);
-}
-
-// The slot of an occluder that is there, and whose owner, if it has one, is there too.
-static uint32_t find_occluder(const occ_scene *scene, occ_occluder occluder)
-{
-    uint32_t slot = occ_slots_find(&scene->occluders, occluder.index, occluder.generation);
-    if (slot == OCC_NO_SLOT) return OCC_NO_SLOT;
-    uint32_t owner = scene->occluder_rows.owner_of[scene->occluders.value[slot]];
-    bool alive = owner == OCC_NO_SLOT || occ_slots_is_taken(&scene->objects, owner);
-    return alive ? slot : OCC_NO_SLOT;
-}
-
-occ_result occ_scene_move_occluder(occ_scene *scene, occ_occluder occluder, const occ_box *box)
-{
-    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    occ_result result = check_boxes(scene, box, 1, "to move");
-    if (result) return result;
-    uint32_t slot = find_occluder(scene, occluder);
-    if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
-    uint32_t row = scene->occluders.value[slot];
-    occ_box *place = scene->occluder_rows.boxes + row;
-    scene->occluders_moved = true;
-    bool is_free = scene->occluder_rows.owner_of[row] == OCC_NO_SLOT;
-    if (!scene->occluders_reordered && is_free && !same_key(&scene->occluder_tree, place, box)) {
-        scene->occluders_reordered = true;
-    }
-    *place = *box;
-    return OCC_SUCCESS;
-}
-
-occ_result occ_scene_remove_occluder(occ_scene *scene, occ_occluder occluder)
-{
-    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    uint32_t slot = find_occluder(scene, occluder);
-    if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
-    scene->occluder_rows.slot_of[scene->occluders.value[slot]] = OCC_NO_SLOT;
-    occ_slots_release(&scene->occluders, slot);
-    scene->occluders_reordered = true;
     return OCC_SUCCESS;
 }
 
@@ -324,29 +243,11 @@ bool occ_scene_contains(const occ_scene *scene, occ_object object)
 occ_result occ_scene_box(const occ_scene *scene, occ_object object, occ_box *box)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    if (!box) return missing(scene, "the box is");
+    if (!box) return occ_scene_missing(scene, "the box is");
     if (!occ_scene_contains(scene, object)) {
-        return stale(scene, "object", object.index, object.generation);
+        return occ_scene_stale(scene, "object", object.index, object.generation);
     }
     *box = occ_boxes_get(&scene->boxes, scene->objects.value[object.index - 1]);
-    return OCC_SUCCESS;
-}
-
-occ_result occ_scene_occluder_box(const occ_scene *scene, occ_occluder occluder, occ_box *box,
-                                  occ_object *owner)
-{
-    if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    uint32_t slot = find_occluder(scene, occluder);
-    if (slot == OCC_NO_SLOT) return stale(scene, "occluder", occluder.index, occluder.generation);
-    uint32_t row = scene->occluders.value[slot];
-    uint32_t owned_by = scene->occluder_rows.owner_of[row];
-    if (box) *box = occ_scene_occluder_boxes(scene)[row];
-    if (owner) {
-        *owner = (occ_object){0, 0};
-        if (owned_by != OCC_NO_SLOT) {
-            *owner = (occ_object){owned_by + 1, scene->objects.generation[owned_by]};
-        }
-    }
     return OCC_SUCCESS;
 }
 
@@ -358,7 +259,7 @@ uint32_t occ_scene_slot_count(const occ_scene *scene)
 occ_result occ_scene_get_stats(const occ_scene *scene, occ_scene_stats *stats)
 {
     if (!scene) return OCC_ERROR_INVALID_ARGUMENT;
-    if (!stats) return missing(scene, "the stats are");
+    if (!stats) return occ_scene_missing(scene, "the stats are");
     *stats = (occ_scene_stats){.objects = scene->objects.taken,
                                .occluders = scene->occluders.taken,
                                .slots = scene->objects.count,

@@ -4,6 +4,9 @@
 
 #include "box.h"
 #include "log.h"
+#include "sheet.h"
+
+#include <string.h>
 
 static const char *check_rows(const occ_scene *scene)
 {
@@ -29,6 +32,28 @@ static const char *check_rows(const occ_scene *scene)
 
 // --- occluders -----------------------------------------------------------------------------------
 
+// Of a sheet that its entry is sound and its row has its proxy; of a box that it is sound.
+static const char *check_kind(const occ_scene *scene, uint32_t row)
+{
+    const occ_occluder_rows *rows = &scene->occluder_rows;
+    uint32_t index = occ_scene_sheet_of(scene, row);
+    const char *reason;
+    if (index == OCC_NO_SLOT) {
+        bool bad = occ_box_check(&rows->boxes[row]) != OCC_SUCCESS;
+        return bad ? "an occluder's box is finite and in range" : NULL;
+    }
+    if (index >= scene->sheets.entries.count) return "a sheet has an entry";
+    const occ_sheet_entry *entry = occ_sheets_at(&scene->sheets, index);
+    if (entry->slot != rows->slot_of[row]) return "a sheet's entry is its own";
+    if (occ_sheet_check(&entry->sheet, &reason)) return "a sheet is sound";
+    const occ_sheet plain = occ_sheet_plain(&entry->sheet);
+    if (memcmp(&plain, &entry->sheet, sizeof plain))
+        return "a sheet is zero where it has no corners";
+    const occ_box proxy = occ_sheet_proxy(&entry->sheet);
+    bool same = !memcmp(&proxy, &rows->boxes[row], sizeof proxy);
+    return same ? NULL : "a sheet's row has its proxy";
+}
+
 static const char *check_occluder(const occ_scene *scene, uint32_t row)
 {
     const occ_occluder_rows *rows = &scene->occluder_rows;
@@ -37,7 +62,8 @@ static const char *check_occluder(const occ_scene *scene, uint32_t row)
         return "an occluder's row belongs to a slot that is taken";
     }
     if (scene->occluders.value[slot] != row) return "occluders' slots and rows name each other";
-    if (occ_box_check(&rows->boxes[row])) return "an occluder's box is finite and in range";
+    const char *broken = check_kind(scene, row);
+    if (broken) return broken;
     if ((owner != OCC_NO_SLOT) != (row < scene->attached_count)) {
         return "occluders that an object owns lie before those that nobody owns";
     }
@@ -51,12 +77,16 @@ static const char *check_occluder(const occ_scene *scene, uint32_t row)
 static const char *check_occluder_rows(const occ_scene *scene)
 {
     const occ_occluder_rows *rows = &scene->occluder_rows;
-    const char *broken = NULL;
+    const char *broken = occ_sheets_validate(&scene->sheets);
+    uint32_t sheets = 0;
     if (scene->occluders.released_count) return "a commit recycles the released slots";
     if (rows->count != scene->occluders.taken) return "every occluder has one row";
     if (scene->attached_count > rows->count) return "attached occluders have rows";
-    for (uint32_t row = 0; row < rows->count && !broken; row++)
+    for (uint32_t row = 0; row < rows->count && !broken; row++) {
         broken = check_occluder(scene, row);
+        sheets += occ_scene_sheet_of(scene, row) != OCC_NO_SLOT;
+    }
+    if (!broken && sheets != scene->sheets.taken) return "every sheet is an occluder";
     for (uint32_t row = 1; row < scene->attached_count && !broken; row++) {
         uint32_t before = occ_scene_owner_row(scene, row - 1);
         uint32_t here = occ_scene_owner_row(scene, row);

@@ -18,6 +18,7 @@
 #include "boxes.h"
 #include "occluder_rows.h"
 #include "octree.h"
+#include "sheet_table.h"
 #include "slots.h"
 
 // What the objects of a subtree own: the occluders in rows [first, first + count).
@@ -39,6 +40,7 @@ struct occ_scene {
 
     occ_slots occluders;
     occ_occluder_rows occluder_rows;
+    occ_sheets sheets;        // those of the occluders that are no boxes
     uint32_t attached_count;  // rows from here on are free
     occ_array attached;       // occ_attached per node of the objects' tree
     occ_octree occluder_tree; // of the free ones
@@ -70,6 +72,20 @@ static inline const occ_box *occ_scene_occluder_boxes(const occ_scene *scene)
     return scene->occluder_rows.boxes;
 }
 
+// Where the occluder in a row lies among the sheets, or OCC_NO_SLOT: it is a box.
+static inline uint32_t occ_scene_sheet_of(const occ_scene *scene, uint32_t row)
+{
+    const uint32_t *sheet_of = scene->occluder_rows.sheet_of;
+    return sheet_of ? sheet_of[row] : OCC_NO_SLOT;
+}
+
+// The occluder in a row, if it is a sheet, or NULL.
+static inline const occ_sheet *occ_scene_sheet(const occ_scene *scene, uint32_t row)
+{
+    uint32_t index = occ_scene_sheet_of(scene, row);
+    return index == OCC_NO_SLOT ? NULL : &occ_sheets_at(&scene->sheets, index)->sheet;
+}
+
 static inline uint32_t occ_scene_free_count(const occ_scene *scene)
 {
     return scene->occluder_rows.count - scene->attached_count;
@@ -81,6 +97,9 @@ static inline uint32_t occ_scene_owner_row(const occ_scene *scene, uint32_t row)
     uint32_t owner = scene->occluder_rows.owner_of[row];
     return owner == OCC_NO_SLOT ? OCC_NO_SLOT : scene->objects.value[owner];
 }
+
+// The occluder in a row is a box from here on, if it was a sheet.
+void occ_scene_drop_sheet(occ_scene *scene, uint32_t row);
 
 // The occluders' part of a commit, once the objects are in their rows.
 occ_result occ_commit_occluders(occ_scene *scene, occ_team *team);

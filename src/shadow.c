@@ -86,10 +86,8 @@ static int see_faces(const solid *s, const occ_camera *camera, face seen[3])
     return count;
 }
 
-// Stores n.x + d > 0, where the components of n are off by at most `normal_error` and d by at most
-// `d_error`. False if n is too short for its error: then its direction means nothing.
-static bool add_plane(occ_shadow *shadow, const double n[3], double normal_error, double d,
-                      double d_error)
+bool occ_shadow_add_plane(occ_shadow *shadow, const double n[3], double normal_error, double d,
+                          double d_error)
 {
     double size = occ_largest(n);
     if (!(size > 0.0) || !(size < 1e200) || normal_error > size * 0x1p-26) return false;
@@ -110,7 +108,7 @@ static bool add_face(occ_shadow *shadow, const solid *s, const face *f, int k)
         inward[j] = -f->facing * s->normal[k][j];
     double d = -occ_dot(inward, f->center);
     double error = 16.0 * EPS * occ_dot_magnitude(inward, s->size);
-    return add_plane(shadow, inward, EPS * occ_largest(inward), d, error);
+    return occ_shadow_add_plane(shadow, inward, EPS * occ_largest(inward), d, error);
 }
 
 // An edge of face k: where the face ends on the `side` of axis[across]; it runs along axis[along].
@@ -118,8 +116,7 @@ typedef struct edge {
     int k, side, across, along;
 } edge;
 
-// Bounds the error of every component of ray x axis[along], where |ray_j| <= from[j].
-static double cross_error(const double from[3], const double axis[3])
+double occ_cross_error(const double from[3], const double axis[3])
 {
     double most = 0.0;
     for (int j = 0; j < 3; j++) {
@@ -146,7 +143,7 @@ static void set_rim(rim *r, const solid *s, const occ_camera *camera, const face
         bound[j] = camera->orthographic ? fabs(r->ray[j]) : s->size[j];
     }
     occ_cross(r->ray, s->axis[e->along], r->n);
-    r->error = cross_error(bound, s->axis[e->along]);
+    r->error = occ_cross_error(bound, s->axis[e->along]);
     // With a and b for the two axes and m for the face's middle, (m + side a) x b . m is
     // side (a x b) . m; a x b is ±normal[k], and see_face() knows the sign of normal[k] . m.
     bool cyclic = e->across == (e->k + 1) % 3;
@@ -212,7 +209,7 @@ static bool add_rim(occ_shadow *shadow, const solid *s, const occ_camera *camera
     } else {
         d_error = 8.0 * EPS * occ_dot_magnitude(n, camera->doubt);
     }
-    return add_plane(shadow, n, r->error, d, d_error);
+    return occ_shadow_add_plane(shadow, n, r->error, d, d_error);
 }
 
 static bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera *camera,
@@ -276,6 +273,7 @@ bool occ_shadow_init(occ_shadow *shadow, const occ_camera *camera, const occ_box
     if (!survives_near(&s, camera, seen)) return false;
     *shadow = (occ_shadow){.owner = owner};
     if (!add_silhouettes(shadow, &s, camera, seen)) return false;
+    shadow->silhouettes = shadow->planes;
     for (int k = 0; k < 3; k++)
         if (seen[k].sign && !add_face(shadow, &s, &seen[k], k)) return false;
     return true;

@@ -176,6 +176,8 @@ static occ_result push_occluders(occ_frame *frame, uint32_t planes, uint32_t fir
         uint32_t chosen = frame->lanes->select(boxes + first + i, left, choice, planes, key);
         for (; chosen; chosen &= chosen - 1u) {
             uint32_t l = (uint32_t)__builtin_ctz(chosen);
+            const occ_sheet *sheet = occ_scene_sheet(frame->scene, first + i + l);
+            if (sheet && !occ_occluder_sheet_is_large(frame, sheet)) continue;
             occ_walk_entry entry = {
                 .key = key[l], .index = first + i + l, .what = OCC_WALK_OCCLUDER | planes};
             if (occ_queue_push(frame->hooks, &frame->queue, entry)) return OCC_ERROR_OUT_OF_MEMORY;

@@ -97,8 +97,10 @@ occ_eye edge_eye(kit_random *random, float size)
 void edge_shadow(kit_random *random, const occ_relative_box *box, float size, uint32_t rows,
                  occ_shadow *shadow)
 {
-    static const uint32_t plane_counts[] = {1, 2, 5, 8, 9};
-    *shadow = (occ_shadow){.planes = plane_counts[kit_below(random, 5)], .owner = OCC_NOBODY};
+    static const uint32_t plane_counts[] = {1, 2, 4, 5, 7, 8, 9};
+    *shadow = (occ_shadow){.planes = plane_counts[kit_below(random, 7)], .owner = OCC_NOBODY};
+    shadow->silhouettes = shadow->planes - 1; // a sheet's, or a box's
+    if (shadow->planes > 7 && kit_below(random, 2)) shadow->silhouettes = 6;
     if (kit_below(random, 2)) shadow->owner = kit_below(random, rows);
     for (uint32_t p = 0; p < shadow->planes; p++)
         edge_plane(random, box, size, shadow->plane[p]);

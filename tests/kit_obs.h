@@ -27,6 +27,13 @@ static inline occ_scene *kit_obs_scene(const obs_scene *file, const occ_scene_de
                          OCC_SUCCESS);
         if (occluders) occluders[i] = occluder;
     }
+    for (uint32_t i = 0; i < file->sheet_count; i++) {
+        const obs_sheet *from = &file->sheets[i];
+        occ_occluder occluder;
+        ck_assert_int_eq(occ_scene_add_sheet(scene, &from->sheet, made[from->owner], &occluder),
+                         OCC_SUCCESS);
+        if (occluders) occluders[file->occluder_count + i] = occluder;
+    }
     for (uint32_t i = 0; objects && i < file->object_count; i++)
         objects[i] = made[i];
     free(made);

@@ -333,9 +333,13 @@ void kit_check_same_occluders(const occ_scene *a, const occ_scene *b)
     kit_check_same_tree(&a->occluder_tree, &b->occluder_tree);
     KIT_CHECK(x->count == y->count && a->attached_count == b->attached_count,
               "there are more or fewer occluders");
-    for (uint32_t i = 0; i < x->count; i++)
+    for (uint32_t i = 0; i < x->count; i++) {
+        const occ_sheet *one = occ_scene_sheet(a, i), *other = occ_scene_sheet(b, i);
         KIT_CHECK(kit_same_bits(&x->boxes[i], &y->boxes[i], sizeof *x->boxes),
                   "occluder %u differs", i);
+        KIT_CHECK(!one == !other && (!one || kit_same_bits(one, other, sizeof *one)),
+                  "sheet %u differs", i);
+    }
     KIT_CHECK(same_array(&a->attached, &b->attached), "what is attached to nodes differs");
     KIT_CHECK(same_array(&a->reach, &b->reach), "how far the occluders reach differs");
 }

@@ -155,6 +155,7 @@ bool mini_write(const mini *m, const char *path)
 static bool take_file(mini *m, const obs_scene *file, uint32_t frame)
 {
     if (file->object_count > MINI_OBJECTS || file->occluder_count > MINI_OCCLUDERS) return false;
+    if (file->sheet_count > 0) return false; // boxes alone
     if (frame >= file->frame_count) return false;
     *m = (mini){.object_count = file->object_count, .occluder_count = file->occluder_count};
     m->camera.frame = file->frames[frame];

@@ -244,7 +244,7 @@ START_TEST(no_silhouette_of_a_derived_eye_holds_the_exact_one)
             occ_box box = world_box(&random, WORLD_TURNED, center, size);
             occ_shadow shadow;
             if (!occ_shadow_init(&shadow, &frame.camera, &box, OCC_NOBODY)) continue;
-            for (uint32_t p = 0; p < (shadow.planes == 5 ? 4u : 6u); p++) {
+            for (uint32_t p = 0; p < shadow.silhouettes; p++) {
                 silhouettes++;
                 beyond += value_at_exact_eye(o, frame.camera.eye, shadow.plane[p]) > 0;
                 mpq_set_d(number, (double)shadow.plane[p][3]);

@@ -116,6 +116,35 @@ START_TEST(a_wall_hides_what_is_behind_it_and_nothing_else)
 }
 END_TEST
 
+// A window of six corners as seen from the eye, counterclockwise or clockwise.
+static void add_window(sight *s, occ_sides sides, bool is_turned, uint32_t owner)
+{
+    static const double xy[6][2] = {{2, 0}, {1, 2}, {-1, 2}, {-2, 0}, {-1, -2}, {1, -2}};
+    occ_sheet sheet = {.corner_count = 6, .sides = sides};
+    for (int c = 0; c < 6; c++) {
+        const double *at = xy[is_turned ? 5 - c : c];
+        occ_box point = box_of(s, at[0], at[1], 5, 0, 0, 0);
+        memcpy(sheet.corner[c], point.center, sizeof sheet.corner[c]);
+    }
+    obs_add_sheet(&s->world, &sheet, owner);
+}
+
+START_TEST(a_sheet_hides_from_the_sides_that_it_has)
+{
+    for (int is_turned = 0; is_turned < 2; is_turned++)
+        for (int sides = OCC_SIDES_BOTH; sides <= OCC_SIDES_FRONT; sides++) {
+            sight s = look(_i % TURNS);
+            uint32_t owner = add_object(&s, 0, 0, -20, 0.5), behind = add_object(&s, 0, 0, 10, 0.5);
+            uint32_t corner = add_object(&s, 3.5, 3.5, 10, 0.4); // beside one of six edges
+            add_window(&s, (occ_sides)sides, is_turned, owner);
+            uint32_t mask = shown(&s.world, _i / TURNS, NULL);
+            bool is_seen = sides == OCC_SIDES_FRONT && is_turned;
+            ck_assert_uint_eq(mask, bit(corner) | (is_seen ? bit(behind) : 0));
+            obs_free(&s.world);
+        }
+}
+END_TEST
+
 START_TEST(up_is_up)
 {
     sight s = look(_i % TURNS);
@@ -394,6 +423,7 @@ int main(void)
     tcase_add_loop_test(small, without_perspective_only_the_frustum_decides, 0, VIEWS);
     tcase_add_loop_test(small, denormal_boxes_do_no_harm, 0, PEERS);
     tcase_add_loop_test(small, denormal_numbers_are_numbers_again_afterwards, 0, PEERS);
+    tcase_add_loop_test(small, a_sheet_hides_from_the_sides_that_it_has, 0, VIEWS);
     tcase_add_loop_test(small, up_is_up, 0, VIEWS);
     tcase_add_loop_test(small, what_lies_in_a_surface_is_shown, 0, VIEWS);
     tcase_add_loop_test(small, an_object_that_reaches_behind_the_camera_is_shown, 0, VIEWS);

@@ -14,6 +14,7 @@
 enum {
     OBJECTS = 24,
     OCCLUDERS = 40,
+    SHEETS = 20,
     SCENES = 300,
     KINDS = 5 // of cameras
 };
@@ -59,6 +60,23 @@ static obs_frame random_frame(kit_random *random, const float eye[3], int kind, 
     return frame;
 }
 
+// Three to eight corners around a middle, in a plane or bent, in either order.
+static occ_sheet random_sheet(kit_random *random, const float middle[3], float reach, float size)
+{
+    const occ_box frame = random_box(random, middle, reach, size);
+    occ_sheet sheet = {.corner_count = 3 + kit_below(random, 6),
+                       .sides = (occ_sides)kit_below(random, 2)};
+    float bend = kit_below(random, 2) ? 0.0f : 0.25f;
+    for (uint32_t c = 0; c < sheet.corner_count; c++) {
+        double angle = 6.28 * (c + 0.9 * steady_unit(random)) / sheet.corner_count;
+        float u = (float)cos(angle), v = (float)sin(angle), w = bend * kit_between(random, -1, 1);
+        for (int j = 0; j < 3; j++)
+            sheet.corner[c][j] = frame.center[j] + u * frame.axis[0][j] + v * frame.axis[1][j] +
+                                 w * frame.axis[2][j];
+    }
+    return sheet;
+}
+
 // The occluders are around the eye and before it, the objects farther off.
 static void make_scene(obs_scene *scene, kit_random *random, int kind)
 {
@@ -81,6 +99,10 @@ static void make_scene(obs_scene *scene, kit_random *random, int kind)
         obs_add_occluder(scene, &box, kit_below(random, OBJECTS));
     }
     ck_assert(!scene->out_of_memory);
+    for (int i = 0; i < SHEETS; i++) {
+        occ_sheet sheet = random_sheet(random, middle, 9 * scale, 1.5f * scale);
+        obs_add_sheet(scene, &sheet, kit_below(random, OBJECTS));
+    }
 }
 
 static judge *judge_of_frame(const obs_frame *frame)
@@ -100,6 +122,7 @@ typedef struct court {
     judge *all, *some;
     settle_candidate *list;
     occ_box *boxes;
+    occ_sheet *sheets;
 } court;
 
 static void open_court(court *c, const obs_scene *scene, uint32_t index)
@@ -109,15 +132,19 @@ static void open_court(court *c, const obs_scene *scene, uint32_t index)
     ck_assert_msg(!complaint, "%s", complaint);
     c->all = judge_of_frame(&scene->frames[index]);
     c->some = judge_of_frame(&scene->frames[index]);
-    int *owners = calloc(scene->occluder_count, sizeof *owners);
-    c->list = calloc(scene->occluder_count, sizeof *c->list);
-    c->boxes = calloc(scene->occluder_count, sizeof *c->boxes);
-    ck_assert(owners && c->list && c->boxes);
-    for (uint32_t i = 0; i < scene->occluder_count; i++) {
-        c->boxes[i] = scene->occluders[i].box;
-        owners[i] = (int)scene->occluders[i].owner;
+    uint32_t total = obs_occluder_total(scene), boxes = scene->occluder_count;
+    int *owners = calloc(total, sizeof *owners);
+    c->list = calloc(total, sizeof *c->list);
+    c->boxes = calloc(total, sizeof *c->boxes);
+    c->sheets = calloc(total, sizeof *c->sheets);
+    ck_assert(owners && c->list && c->boxes && c->sheets);
+    for (uint32_t i = 0; i < total; i++) {
+        if (i < boxes) c->boxes[i] = scene->occluders[i].box;
+        if (i >= boxes) c->sheets[i - boxes] = *obs_occluder_sheet(scene, i);
+        owners[i] = (int)obs_occluder_owner(scene, i);
     }
-    judge_set_occluders(c->all, c->boxes, owners, scene->occluder_count);
+    judge_set_occluders(c->all, c->boxes, owners, boxes);
+    judge_add_sheets(c->all, c->sheets, owners + boxes, total - boxes);
     free(owners);
 }
 
@@ -128,6 +155,7 @@ static void close_court(court *c)
     settle_frame_free(&c->frame);
     free(c->list);
     free(c->boxes);
+    free(c->sheets);
 }
 
 typedef struct tally {
@@ -138,15 +166,21 @@ typedef struct tally {
 static void choose_for(court *c, uint32_t object, tally *sum)
 {
     uint32_t count = settle_frame_select(&c->frame, object, c->list);
-    ck_assert_uint_le(count, c->scene->occluder_count);
+    uint32_t boxes = 0, sheets = 0;
+    ck_assert_uint_le(count, obs_occluder_total(c->scene));
     for (uint32_t i = 0; i < count; i++) {
-        const obs_occluder *occluder = &c->scene->occluders[c->list[i].occluder];
-        ck_assert_uint_ne(occluder->owner, object);
+        uint32_t occluder = c->list[i].occluder;
+        const occ_sheet *sheet = obs_occluder_sheet(c->scene, occluder);
+        ck_assert_uint_ne(obs_occluder_owner(c->scene, occluder), object);
         uint32_t before = i < SETTLE_BEST ? i : SETTLE_BEST;
         ck_assert(i == 0 || c->list[i].cover <= c->list[before - 1].cover);
-        c->boxes[i] = occluder->box;
+        if (sheet)
+            c->sheets[sheets++] = *sheet;
+        else
+            c->boxes[boxes++] = c->scene->occluders[occluder].box;
     }
-    judge_set_occluders(c->some, c->boxes, NULL, count);
+    judge_set_occluders(c->some, c->boxes, NULL, boxes);
+    judge_add_sheets(c->some, c->sheets, NULL, sheets);
     sum->candidates += count;
 }
 
@@ -189,7 +223,7 @@ START_TEST(occluders_left_out_change_no_verdict)
     ck_assert_uint_gt(sum.seen, sum.objects / 50);
     ck_assert_uint_gt(sum.hidden, sum.objects / 20);
     ck_assert_uint_gt(sum.partly, sum.objects / 50);
-    ck_assert_uint_lt(sum.candidates, (uint64_t)sum.objects * OCCLUDERS / 2);
+    ck_assert_uint_lt(sum.candidates, (uint64_t)sum.objects * (OCCLUDERS + SHEETS) / 2);
 }
 END_TEST
 

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { WIDTH = 50, HEIGHT = 34, OBJECTS = 60, OCCLUDERS = 20, SCENES = 12 };
+enum { WIDTH = 50, HEIGHT = 34, OBJECTS = 60, OCCLUDERS = 20, SHEETS = 16, SCENES = 12 };
 
 typedef struct line {
     double from[3], along[3];
@@ -50,6 +50,27 @@ static void meet_box(const line *ray, const occ_box *box, double *low, double *h
         meet_face(ray, box, face, low, high);
 }
 
+// Widens low..high by where the line meets a triangle: from + t along = a + i (b - a) + j (c - a).
+static void meet_triangle(const line *ray, const occ_sheet *sheet, uint32_t c, double *low,
+                          double *high)
+{
+    double u[3], v[3], to[3], minus[3];
+    for (int j = 0; j < 3; j++) {
+        double corner = (double)sheet->corner[0][j];
+        u[j] = (double)sheet->corner[c - 1][j] - corner;
+        v[j] = (double)sheet->corner[c][j] - corner;
+        to[j] = ray->from[j] - corner;
+        minus[j] = -ray->along[j];
+    }
+    double whole = determinant(minus, u, v);
+    if (whole == 0 || (sheet->sides == OCC_SIDES_FRONT && whole < 0)) return;
+    double i = determinant(minus, to, v) / whole, j = determinant(minus, u, to) / whole;
+    if (i < 0 || j < 0 || i + j > 1) return;
+    double t = determinant(to, u, v) / whole;
+    *low = fmin(*low, t);
+    *high = fmax(*high, t);
+}
+
 // The part of a ray before any occluder of another owner.
 static double free_length(const obs_scene *scene, const line *ray, uint32_t object, double near_t)
 {
@@ -59,6 +80,14 @@ static double free_length(const obs_scene *scene, const line *ray, uint32_t obje
         meet_box(ray, &scene->occluders[i].box, &low, &high);
         if (low <= high && low >= near_t) limit = fmin(limit, low);
     }
+    for (uint32_t i = 0; i < scene->sheet_count; i++)
+        for (uint32_t c = 2; c < scene->sheets[i].sheet.corner_count; c++) {
+            low = INFINITY;
+            high = -INFINITY;
+            if (scene->sheets[i].owner != object)
+                meet_triangle(ray, &scene->sheets[i].sheet, c, &low, &high);
+            if (low <= high && low >= near_t) limit = fmin(limit, low);
+        }
     return limit;
 }
 
@@ -81,6 +110,23 @@ static occ_box random_box(kit_random *random, float reach, float size)
     return box;
 }
 
+// Corners in order around a middle, half of the sheets bent.
+static occ_sheet random_sheet(kit_random *random)
+{
+    const occ_box frame = kit_box(random, 12, 3);
+    occ_sheet sheet = {.corner_count = 3 + kit_below(random, 6),
+                       .sides = (occ_sides)kit_below(random, 2)};
+    float bend = kit_below(random, 2) ? 0.0f : 0.5f;
+    for (uint32_t c = 0; c < sheet.corner_count; c++) {
+        double angle = 6.28 * (c + 0.9 * (double)kit_between(random, 0, 1)) / sheet.corner_count;
+        float u = (float)cos(angle), v = (float)sin(angle), w = bend * kit_between(random, -1, 1);
+        for (int j = 0; j < 3; j++)
+            sheet.corner[c][j] = frame.center[j] + u * frame.axis[0][j] + v * frame.axis[1][j] +
+                                 w * frame.axis[2][j];
+    }
+    return sheet;
+}
+
 static void make_scene(obs_scene *scene, uint64_t seed)
 {
     static const double directions[4][3] = {{0, 0, -1}, {1, 0, 0}, {0, 0, 1}, {-1, 0, 0}};
@@ -97,6 +143,10 @@ static void make_scene(obs_scene *scene, uint64_t seed)
     for (int i = 0; i < OCCLUDERS; i++) {
         occ_box box = random_box(&random, 12, 2);
         obs_add_occluder(scene, &box, kit_below(&random, OBJECTS));
+    }
+    for (int i = 0; seed % 3 > 0 && i < SHEETS; i++) {
+        occ_sheet sheet = random_sheet(&random);
+        obs_add_sheet(scene, &sheet, kit_below(&random, OBJECTS));
     }
 }
 
@@ -139,7 +189,7 @@ START_TEST(tree_finds_a_solid_where_there_is_one)
 {
     enum { SOLIDS = 500, RAYS = 2000 };
     kit_random random = {77};
-    truth_solid *solids = calloc(SOLIDS + TRUTH_MAX_SOLIDS, sizeof *solids);
+    truth_solid *solids = calloc(SOLIDS + TRUTH_MAX_SOLIDS + 1, sizeof *solids);
     ck_assert_ptr_nonnull(solids);
     truth_view view = {.height = 1};
     uint32_t count = 0, hits = 0;
@@ -147,6 +197,9 @@ START_TEST(tree_finds_a_solid_where_there_is_one)
         occ_box box = random_box(&random, 20, 1);
         int made = truth_solids_of(&view, &box, solids + count);
         for (int i = 0; i < made; i++)
+            solids[count++].owner = kit_below(&random, 3);
+        occ_sheet sheet = random_sheet(&random);
+        if (truth_triangle_of(&view, &sheet, 0, &solids[count]))
             solids[count++].owner = kit_below(&random, 3);
     }
     truth_tree tree;

@@ -84,6 +84,17 @@ static hard_scene describe(const family_world *world)
                                               : obs_add_object(scene, &occluder->box);
         obs_add_occluder(scene, &occluder->box, owner);
     }
+    for (uint32_t i = 0; i < world->sheet_count; i++) {
+        const world_sheet *from = &world->sheets[i];
+        uint32_t owner = (uint32_t)from->owner;
+        occ_box bounds;
+        if (from->owner < 0 && occ_box_from_points(from->sheet.corner[0], from->sheet.corner_count,
+                                                   0, &bounds) != OCC_SUCCESS)
+            result.is_usable = false;
+        else if (from->owner < 0)
+            owner = obs_add_object(scene, &bounds);
+        if (result.is_usable) obs_add_sheet(scene, &from->sheet, owner);
+    }
     obs_frame frame = hard_scene_frame(world);
     obs_add_frame(scene, &frame);
     return result;
@@ -95,7 +106,7 @@ static bool ask_peer(const error_run *run, const hard_scene *scene, uint64_t *sh
     const peer_options options = {.threads = 1,
                                   .rays_width = run->settings.rays_width,
                                   .rays_height = run->settings.rays_height};
-    uint32_t mask[OCC_MASK_WORDS(FAMILY_OBJECTS + FAMILY_OCCLUDERS)] = {0};
+    uint32_t mask[OCC_MASK_WORDS(FAMILY_OBJECTS + FAMILY_OCCLUDERS + FAMILY_SHEETS)] = {0};
     peer_info info;
     occ_view_stats stats = {0};
     void *state = peer->open(&scene->scene, &options, &info);

@@ -69,7 +69,7 @@ static error_row begin_row(const worker *work, const error_run *run)
 {
     error_row row = {.run = *run,
                      .objects = work->scene->object_count,
-                     .occluders = work->scene->occluder_count,
+                     .occluders = obs_occluder_total(work->scene),
                      .identity = work->identity};
     snprintf(row.scene, sizeof row.scene, "%s", work->name);
     return row;

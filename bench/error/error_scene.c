@@ -109,6 +109,15 @@ static obs_frame scale_frame(const obs_frame *frame, double factor)
     return result;
 }
 
+static occ_sheet scale_sheet(const occ_sheet *sheet, double factor)
+{
+    occ_sheet result = *sheet;
+    for (uint32_t c = 0; c < sheet->corner_count; c++)
+        for (int k = 0; k < 3; k++)
+            result.corner[c][k] = scaled(sheet->corner[c][k], factor);
+    return result;
+}
+
 bool error_scene_scale(const obs_scene *scene, double factor, obs_scene *result)
 {
     *result = (obs_scene){0};
@@ -119,6 +128,10 @@ bool error_scene_scale(const obs_scene *scene, double factor, obs_scene *result)
     for (uint32_t i = 0; i < scene->occluder_count; i++) {
         occ_box box = scale_box(&scene->occluders[i].box, factor);
         obs_add_occluder(result, &box, scene->occluders[i].owner);
+    }
+    for (uint32_t i = 0; i < scene->sheet_count; i++) {
+        occ_sheet sheet = scale_sheet(&scene->sheets[i].sheet, factor);
+        obs_add_sheet(result, &sheet, scene->sheets[i].owner);
     }
     for (uint32_t i = 0; i < scene->frame_count; i++) {
         obs_frame frame = scale_frame(&scene->frames[i], factor);
@@ -168,6 +181,13 @@ static uint64_t add_box(uint64_t hash, const occ_box *box)
     return hash;
 }
 
+static uint64_t add_sheet(uint64_t hash, const obs_sheet *from)
+{
+    hash = add_word(add_word(hash, from->sheet.corner_count), (uint32_t)from->sheet.sides);
+    return add_word(add_floats(hash, from->sheet.corner[0], 3u * from->sheet.corner_count),
+                    from->owner);
+}
+
 uint64_t error_scene_identity(const obs_scene *scene)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
@@ -178,6 +198,8 @@ uint64_t error_scene_identity(const obs_scene *scene)
         hash = add_box(hash, &scene->objects[i]);
     for (uint32_t i = 0; i < scene->occluder_count; i++)
         hash = add_word(add_box(hash, &scene->occluders[i].box), scene->occluders[i].owner);
+    for (uint32_t i = 0; i < scene->sheet_count; i++)
+        hash = add_sheet(hash, &scene->sheets[i]);
     for (uint32_t i = 0; i < scene->frame_count; i++) {
         const obs_frame *frame = &scene->frames[i];
         hash = add_floats(add_floats(hash, frame->eye, 3), frame->dir, 3);

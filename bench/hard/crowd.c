@@ -84,12 +84,14 @@ static void anywhere(stage *s, world_shape shape)
 void stage_crowd(stage *s, uint32_t count, world_shape shape)
 {
     while (s->world->object_count < count) {
-        uint32_t kind = steady_below(&s->random, 12), occluders = s->world->occluder_count;
+        uint32_t kind = steady_below(&s->random, 12), boxes = s->world->occluder_count;
+        uint32_t occluders = boxes + s->world->sheet_count;
         if (!occluders || kind == 11) {
             anywhere(s, shape);
             continue;
         }
         int occluder = (int)steady_below(&s->random, occluders);
+        if (occluder >= (int)boxes) occluder += FAMILY_OCCLUDERS - (int)boxes;
         if (kind < 6 || (shape != WORLD_SHAPES && kind < 10)) {
             stage_behind(s, occluder, 1.0 + world_scale(&s->random, 0.01, 4), shape);
         } else if (kind < 10) {

@@ -46,7 +46,21 @@
     X(few, "no object or one, no occluder or one")                                                 \
     X(sheets_edge_on, "sheets seen edge-on, or nearly")                                            \
     X(sheets_both_sides, "sheets seen from the front and from the back")                           \
-    X(sheet_flush, "sheets in the faces of their own objects' bounds")
+    X(sheet_flush, "sheets in the faces of their own objects' bounds")                             \
+    X(polygon_abutting, "polygons side by side with the seam on the line of sight")                \
+    X(polygon_gap, "polygons with an edge in common but for single ulps")                          \
+    X(polygon_tiles, "triangles that tile a wall, corner to corner")                               \
+    X(polygon_octagons, "octagons and the squares between them")                                   \
+    X(polygon_bent, "polygons with corners an ulp, or more, out of their plane")                   \
+    X(polygon_needles, "polygons a million times as long as wide")                                 \
+    X(polygon_eye_plane, "the eye in a polygon's plane")                                           \
+    X(polygon_eye_edge, "the eye on the line of a polygon's edge")                                 \
+    X(polygon_eye_corner, "the eye in a corner of one polygon, or of several")                     \
+    X(polygon_one_sided, "polygons that hide from the front, seen from either side")               \
+    X(polygon_mixed, "polygons and boxes that hide together")                                      \
+    X(polygon_concave, "outlines that are not convex, cross themselves, or have no area")          \
+    X(polygon_at_near, "polygons that the near plane cuts, and others behind the eye")             \
+    X(polygon_flush, "objects in a polygon's plane, and owners around it")
 
 #define FAMILY_DECLARE(name, brief) void family_##name(family_world *, const family_place *);
 FAMILY_LIST(FAMILY_DECLARE)

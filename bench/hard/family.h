@@ -12,7 +12,7 @@
 
 #include "world.h"
 
-enum { FAMILY_OBJECTS = 64, FAMILY_OCCLUDERS = 64 };
+enum { FAMILY_OBJECTS = 64, FAMILY_OCCLUDERS = 64, FAMILY_SHEETS = 64 };
 
 /// Where a world is, and which it is.
 typedef struct family_place {
@@ -35,8 +35,9 @@ typedef struct family_world {
     /// is the camera's: what a scene file would say of it. Rounded: the camera is the matrix.
     float view[16], proj[16];
     occ_box objects[FAMILY_OBJECTS];
-    world_occluder occluders[FAMILY_OCCLUDERS];
-    uint32_t object_count, occluder_count;
+    world_occluder occluders[FAMILY_OCCLUDERS]; ///< Those that are boxes.
+    world_sheet sheets[FAMILY_SHEETS];
+    uint32_t object_count, occluder_count, sheet_count;
 } family_world;
 
 /// Lets the pointers of a copied world's camera point into it again.

@@ -45,6 +45,15 @@ obs_frame hard_scene_frame(const family_world *world)
     return frame;
 }
 
+// The object that is the owner, or the one that all have who have none.
+static uint32_t owner_in(obs_scene *scene, const family_world *world, int owner, uint32_t *nobody)
+{
+    if (owner >= 0) return (uint32_t)owner;
+    const occ_box point = point_behind(world);
+    if (*nobody == UINT32_MAX) *nobody = obs_add_object(scene, &point);
+    return *nobody;
+}
+
 bool hard_scene_write(const char *path, const family_world *world)
 {
     obs_scene scene = {0};
@@ -52,13 +61,12 @@ bool hard_scene_write(const char *path, const family_world *world)
     uint32_t nobody = UINT32_MAX;
     for (uint32_t i = 0; i < world->object_count; i++)
         obs_add_object(&scene, &world->objects[i]);
-    for (uint32_t i = 0; i < world->occluder_count; i++) {
-        const world_occluder *occluder = &world->occluders[i];
-        occ_box point = point_behind(world);
-        if (occluder->owner < 0 && nobody == UINT32_MAX) nobody = obs_add_object(&scene, &point);
-        obs_add_occluder(&scene, &occluder->box,
-                         occluder->owner < 0 ? nobody : (uint32_t)occluder->owner);
-    }
+    for (uint32_t i = 0; i < world->occluder_count; i++)
+        obs_add_occluder(&scene, &world->occluders[i].box,
+                         owner_in(&scene, world, world->occluders[i].owner, &nobody));
+    for (uint32_t i = 0; i < world->sheet_count; i++)
+        obs_add_sheet(&scene, &world->sheets[i].sheet,
+                      owner_in(&scene, world, world->sheets[i].owner, &nobody));
     obs_add_frame(&scene, &frame);
     bool good = obs_write(path, &scene);
     obs_free(&scene);

@@ -97,8 +97,7 @@ void stage_begin(stage *s, family_world *world, const family_place *place, const
     s->back[2] = 1.0;
 }
 
-// To world units, without the place.
-static void carry(const stage *s, const double local[3], double out[3])
+void stage_carry(const stage *s, const double local[3], double out[3])
 {
     for (int j = 0; j < 3; j++)
         out[j] = s->unit *
@@ -126,6 +125,11 @@ void stage_end(stage *s)
         nudge_box(s, &s->world->objects[i]);
     for (uint32_t i = 0; i < s->world->occluder_count; i++)
         nudge_box(s, &s->world->occluders[i].box);
+    for (uint32_t i = 0; i < s->world->sheet_count; i++) {
+        occ_sheet *sheet = &s->world->sheets[i].sheet;
+        for (uint32_t c = 0; c < 3 * sheet->corner_count; c++)
+            nudge(s, &sheet->corner[c / 3][c % 3]);
+    }
 }
 
 // --- boxes ---------------------------------------------------------------------------------------
@@ -170,11 +174,11 @@ static occ_box placed(const stage *s, const stage_box *box)
 {
     occ_box out;
     double v[3];
-    carry(s, box->center, v);
+    stage_carry(s, box->center, v);
     for (int j = 0; j < 3; j++)
         out.center[j] = (float)(s->place[j] + v[j]);
     for (int k = 0; k < 3; k++) {
-        carry(s, box->axis[k], v);
+        stage_carry(s, box->axis[k], v);
         for (int j = 0; j < 3; j++)
             out.axis[k][j] = (float)v[j];
     }
@@ -304,7 +308,7 @@ void stage_look(stage *s, const double eye[3], const double target[3], const wor
     memcpy(s->back, local[2], sizeof s->back);
     carry_rows(s, local, row);
     clip_rows(s, lens, clip);
-    carry(s, eye, at);
+    stage_carry(s, eye, at);
     for (int j = 0; j < 3; j++)
         world->eye[j] = s->place[j] + at[j];
     world->camera = (occ_camera_desc){.depth = lens->depth};

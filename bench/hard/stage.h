@@ -17,21 +17,33 @@ typedef struct stage_box {
     double center[3], axis[3][3];
 } stage_box;
 
+/// A sheet in the stage's own coordinates.
+typedef struct stage_sheet {
+    uint32_t count;
+    double corner[OCC_SHEET_CORNERS][3];
+} stage_sheet;
+
 typedef struct stage {
     family_world *world;
     steady_random random;
     double turn[3][3], unit, place[3];
-    double length;                         ///< Of one local unit, in world units.
-    double eye[3], back[3];                ///< Of the camera; `back` is against its direction.
-    bool parallel;                         ///< The camera is orthographic.
-    stage_box occluders[FAMILY_OCCLUDERS]; ///< As they were put up.
+    double length;          ///< Of one local unit, in world units.
+    double eye[3], back[3]; ///< Of the camera; `back` is against its direction.
+    bool parallel;          ///< The camera is orthographic.
+    /// As they were put up; then, in the place of sheets, parallelograms that lie about where they
+    /// do.
+    stage_box occluders[FAMILY_OCCLUDERS + FAMILY_SHEETS];
 } stage;
 
 /// Empties the world and draws the turn.
 void stage_begin(stage *s, family_world *world, const family_place *place, const char *name);
 
-/// In a quarter of the worlds, moves some of the boxes' numbers to a neighbouring float.
+/// In a quarter of the worlds, moves some of the numbers of boxes and sheets to a neighbouring
+/// float.
 void stage_end(stage *s);
+
+/// To world units, without the place.
+void stage_carry(const stage *s, const double local[3], double out[3]);
 
 // --- numbers -------------------------------------------------------------------------------------
 // C leaves open in which order arguments are evaluated, and compilers differ. So no expression may
@@ -96,6 +108,30 @@ void stage_corner(const stage_box *box, unsigned corner, double out[3]);
 int stage_object(stage *s, stage_box box);
 int stage_occluder(stage *s, stage_box box, int owner);
 
+// --- sheets --------------------------------------------------------------------------------------
+
+/// A rectangle across z, counterclockwise for a camera that looks along -z.
+stage_sheet stage_quad(double low_x, double high_x, double low_y, double high_y, double z);
+
+/// An octagon across z around (x, y): a square of half size `a` with corners cut off by `cut`.
+stage_sheet stage_octagon(double x, double y, double z, double a, double cut);
+
+/// Moves every corner along z by so much for one unit of x and of y.
+void stage_lean(stage_sheet *sheet, double by_x, double by_y);
+
+/// Turns the order of the corners round.
+void stage_turn_round(stage_sheet *sheet);
+
+/// Puts a sheet up. Returns a number that stage_behind() and stage_on_rim() take, or -1 if there is
+/// no room.
+int stage_put(stage *s, stage_sheet sheet, occ_sides sides, int owner);
+
+/// Either, for a sheet whose sides do not matter.
+occ_sides stage_any_sides(stage *s);
+
+/// The world's sheet of that number.
+world_sheet *stage_world_sheet(stage *s, int occluder);
+
 // --- the camera ----------------------------------------------------------------------------------
 
 /// Any lens, half of them plain perspective.
@@ -117,7 +153,8 @@ void stage_look(stage *s, const double eye[3], const double target[3], const wor
 /// them, and anywhere in the picture. `shape` is WORLD_SHAPES for any.
 void stage_crowd(stage *s, uint32_t count, world_shape shape);
 
-/// An object on the line from the eye through a point inside an occluder, `times` as far.
+/// An object on the line from the eye through a point inside an occluder (a sheet: near it),
+/// `times` as far.
 void stage_behind(stage *s, int occluder, double times, world_shape shape);
 
 /// An aligned object that touches the plane through the eye and an edge of an occluder, or the ray

@@ -25,6 +25,8 @@ bool trial_judge(const family_world *world, trial_fate fates[FAMILY_OBJECTS], tr
         owners[i] = world->occluders[i].owner;
     }
     judge_set_occluders(j, boxes, owners, world->occluder_count);
+    for (uint32_t i = 0; i < world->sheet_count; i++)
+        judge_add_sheets(j, &world->sheets[i].sheet, &world->sheets[i].owner, 1);
     for (uint32_t i = 0; i < world->object_count; i++) {
         fates[i] = TRIAL_OUTSIDE;
         if (judge_frustum(j, &world->objects[i]) == JUDGE_OUTSIDE) continue;
@@ -74,6 +76,11 @@ static occ_result fill_scene(occ_scene *scene, const family_world *world)
         owners[i] = owner < 0 ? (occ_object){0, 0} : handles[owner];
     }
     result = occ_scene_add_occluders(scene, boxes, owners, world->occluder_count, NULL);
+    for (uint32_t i = 0; i < world->sheet_count && result == OCC_SUCCESS; i++) {
+        int owner = world->sheets[i].owner;
+        const occ_object of = owner < 0 ? (occ_object){0, 0} : handles[owner];
+        result = occ_scene_add_sheet(scene, &world->sheets[i].sheet, of, NULL);
+    }
     return result == OCC_SUCCESS ? occ_scene_commit(scene) : result;
 }
 

@@ -48,6 +48,12 @@ typedef struct world_occluder {
     int owner;
 } world_occluder;
 
+/// A sheet that hides, and its owner likewise.
+typedef struct world_sheet {
+    occ_sheet sheet;
+    int owner;
+} world_sheet;
+
 /// A box around `center` whose axes are about as long as `size`.
 occ_box world_box(steady_random *random, world_shape shape, const double center[3], double size);
 

@@ -159,7 +159,7 @@ static char *stem_of(const char *path)
 static bool draw_and_report(const image_arguments *arguments, const obs_scene *scene,
                             const image_parts *parts, uint64_t *differing)
 {
-    const image_names names = {arguments->method, arguments->backend, scene->occluder_count};
+    const image_names names = {arguments->method, arguments->backend, obs_occluder_total(scene)};
     outfile table = {0};
     image_result result;
     if (arguments->csv && !outfile_open(&table, arguments->csv)) return false;

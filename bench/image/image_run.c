@@ -248,7 +248,7 @@ static bool allocate(image_job *job)
     }
     job->is_drawn = calloc(objects, sizeof *job->is_drawn);
     job->is_seen = calloc(objects, sizeof *job->is_seen);
-    job->culprits = calloc((size_t)job->loaded.file->occluder_count + 1, sizeof *job->culprits);
+    job->culprits = calloc((size_t)obs_occluder_total(job->loaded.file) + 1, sizeof *job->culprits);
     uint32_t width = job->wish->gl.width, height = job->wish->gl.height;
     good = good && job->is_drawn && job->is_seen && job->culprits &&
            image_pixels_create(&job->full, width, height) &&

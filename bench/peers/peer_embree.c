@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #ifdef __SSE__
 #include <xmmintrin.h>
 #endif
@@ -85,21 +86,64 @@ static bool is_safe_to_cut(float (*vertices)[3], size_t count)
     return true;
 }
 
-static void write_triangles(peer_tree *tree, const obs_scene *scene, float (*vertices)[3],
-                            uint32_t (*triangles)[3])
+// What goes into one of Embree's geometries: boxes and sheets that hide from both sides, or sheets
+// that hide from their front alone.
+typedef struct batch {
+    occ_sides sides;
+    size_t vertex_count, triangle_count;
+    float (*vertices)[3];
+    uint32_t (*triangles)[3];
+    uint32_t *owners;
+} batch;
+
+static batch count_batch(const obs_scene *scene, occ_sides sides)
 {
-    uint32_t vertex = 0, triangle = 0;
+    batch b = {.sides = sides};
+    for (uint32_t i = 0; sides == OCC_SIDES_BOTH && i < scene->occluder_count; i++) {
+        int order[3], axes = sort_axes(&scene->occluders[i].box, order);
+        b.vertex_count += vertices_of(axes);
+        b.triangle_count += triangles_of(axes);
+    }
+    for (uint32_t i = 0; i < scene->sheet_count; i++) {
+        const occ_sheet *sheet = &scene->sheets[i].sheet;
+        if (sheet->sides != sides) continue;
+        b.vertex_count += sheet->corner_count;
+        b.triangle_count += sheet->corner_count - 2;
+    }
+    return b;
+}
+
+static void write_boxes(const batch *b, const obs_scene *scene, uint32_t *vertex,
+                        uint32_t *triangle)
+{
     for (uint32_t i = 0; i < scene->occluder_count; i++) {
         const obs_occluder *occluder = &scene->occluders[i];
         int order[3], axes = sort_axes(&occluder->box, order);
         const uint32_t(*corners)[3] = axes == 3 ? box_triangles : sheet_triangles;
-        write_vertices(vertices + vertex, &occluder->box, order, vertices_of(axes));
-        for (uint32_t t = 0; t < triangles_of(axes); t++, triangle++) {
-            tree->owners[triangle] = occluder->owner;
+        write_vertices(b->vertices + *vertex, &occluder->box, order, vertices_of(axes));
+        for (uint32_t t = 0; t < triangles_of(axes); t++, ++*triangle) {
+            b->owners[*triangle] = occluder->owner;
             for (int k = 0; k < 3; k++)
-                triangles[triangle][k] = vertex + corners[t][k];
+                b->triangles[*triangle][k] = *vertex + corners[t][k];
         }
-        vertex += vertices_of(axes);
+        *vertex += vertices_of(axes);
+    }
+}
+
+static void write_batch(const batch *b, const obs_scene *scene)
+{
+    uint32_t vertex = 0, triangle = 0;
+    if (b->sides == OCC_SIDES_BOTH) write_boxes(b, scene, &vertex, &triangle);
+    for (uint32_t i = 0; i < scene->sheet_count; i++) {
+        const occ_sheet *sheet = &scene->sheets[i].sheet;
+        if (sheet->sides != b->sides) continue;
+        memcpy(b->vertices[vertex], sheet->corner, sheet->corner_count * sizeof *sheet->corner);
+        for (uint32_t t = 0; t + 2 < sheet->corner_count; t++, triangle++) {
+            const uint32_t corners[3] = {vertex, vertex + t + 1, vertex + t + 2};
+            b->owners[triangle] = scene->sheets[i].owner;
+            memcpy(b->triangles[triangle], corners, sizeof corners);
+        }
+        vertex += sheet->corner_count;
     }
 }
 
@@ -120,15 +164,50 @@ static bool count_bytes(void *held, ssize_t bytes, bool post)
     return true;
 }
 
+// Turns down hits from behind. Rays and hits come as arrays of N of each member, in the order of
+// the members of RTCRay and RTCHit.
+static void keep_front(const struct RTCFilterFunctionNArguments *args)
+{
+    enum { MEMBER_DIRECTION = 4 };
+    const float *ray = (const float *)args->ray + (size_t)MEMBER_DIRECTION * args->N;
+    const float *normal = (const float *)args->hit;
+    for (unsigned i = 0; i < args->N; i++) {
+        float facing = 0;
+        for (size_t k = 0; k < 3; k++)
+            facing += ray[k * args->N + i] * normal[k * args->N + i];
+        if (!(facing < 0)) args->valid[i] = 0;
+    }
+}
+
+static bool add_batch(peer_tree *tree, const obs_scene *scene, batch *b)
+{
+    if (b->triangle_count == 0) return true;
+    RTCGeometry geometry = rtcNewGeometry(tree->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    b->vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                          3 * sizeof(float), b->vertex_count);
+    b->triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                           3 * sizeof(uint32_t), b->triangle_count);
+    rtcSetGeometryUserData(geometry, b->owners);
+    if (b->sides == OCC_SIDES_FRONT) {
+        rtcSetGeometryIntersectFilterFunction(geometry, keep_front);
+        rtcSetGeometryOccludedFilterFunction(geometry, keep_front);
+    }
+    if (b->vertices && b->triangles) {
+        write_batch(b, scene);
+        if (!is_safe_to_cut(b->vertices, b->vertex_count))
+            rtcSetSceneBuildQuality(tree->scene, RTC_BUILD_QUALITY_MEDIUM);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(tree->scene, geometry);
+    }
+    rtcReleaseGeometry(geometry);
+    return succeeded(tree, "giving the occluders to Embree");
+}
+
 static bool add_geometry(peer_tree *tree, const obs_scene *scene)
 {
-    size_t vertex_count = 0, triangle_count = 0;
-    for (uint32_t i = 0; i < scene->occluder_count; i++) {
-        int order[3], axes = sort_axes(&scene->occluders[i].box, order);
-        vertex_count += vertices_of(axes);
-        triangle_count += triangles_of(axes);
-    }
-    if (vertex_count > UINT32_MAX || triangle_count > UINT32_MAX) {
+    batch both = count_batch(scene, OCC_SIDES_BOTH), front = count_batch(scene, OCC_SIDES_FRONT);
+    size_t triangle_count = both.triangle_count + front.triangle_count;
+    if (both.vertex_count + front.vertex_count > UINT32_MAX || triangle_count > UINT32_MAX) {
         fputs("occlude-bench: too many occluders for one of Embree's geometries\n", stderr);
         return false;
     }
@@ -138,22 +217,9 @@ static bool add_geometry(peer_tree *tree, const obs_scene *scene)
         fputs("occlude-bench: not enough memory\n", stderr);
         return false;
     }
-    if (triangle_count == 0) return true;
-    RTCGeometry geometry = rtcNewGeometry(tree->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             3 * sizeof(float), vertex_count);
-    void *triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(uint32_t), triangle_count);
-    rtcSetGeometryUserData(geometry, tree->owners);
-    if (vertices && triangles) {
-        write_triangles(tree, scene, vertices, triangles);
-        if (!is_safe_to_cut(vertices, vertex_count))
-            rtcSetSceneBuildQuality(tree->scene, RTC_BUILD_QUALITY_MEDIUM);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(tree->scene, geometry);
-    }
-    rtcReleaseGeometry(geometry);
-    return succeeded(tree, "giving the occluders to Embree");
+    both.owners = tree->owners;
+    front.owners = tree->owners + both.triangle_count;
+    return add_batch(tree, scene, &both) && add_batch(tree, scene, &front);
 }
 
 bool peer_tree_open(peer_tree *tree, const obs_scene *scene, bool with_filters)

@@ -26,8 +26,8 @@ static uint32_t *find_owning(const obs_scene *scene)
 {
     uint32_t *bits = calloc(OCC_MASK_WORDS(scene->object_count) + 1, sizeof *bits);
     if (!bits) fputs("occlude-bench: not enough memory\n", stderr);
-    for (uint32_t i = 0; bits && i < scene->occluder_count; i++) {
-        uint32_t owner = scene->occluders[i].owner;
+    for (uint32_t i = 0; bits && i < obs_occluder_total(scene); i++) {
+        uint32_t owner = obs_occluder_owner(scene, i);
         if (owner != OBS_NO_OWNER) bits[owner / 32] |= UINT32_C(1) << owner % 32;
     }
     return bits;

@@ -171,7 +171,7 @@ static void draw_legend(canvas *c, int y, const picture_facts *facts)
     }
     if (!facts->used_known) return;
     snprintf(label, sizeof label, "%s of %s occluders used", grouped(facts->used_count, number),
-             grouped(facts->scene->occluder_count, all));
+             grouped(obs_occluder_total(facts->scene), all));
     draw_key(c, x, y, picture_occluder_color, label);
 }
 

@@ -12,7 +12,7 @@ enum { STRIPE_PERIOD = 14, STRIPE_WIDTH = 4 };
 
 typedef struct layer {
     raster raster;
-    const occ_box *(*box_of)(const obs_scene *scene, uint32_t number);
+    bool of_occluders; // else of objects
     canvas_color color, line_color;
     float fill, line; // how much of what is below they cover
     bool striped;
@@ -25,21 +25,30 @@ typedef struct layers {
     layer visible, occluders, culprits, hidden, together;
 } layers;
 
-static const occ_box *object_box(const obs_scene *scene, uint32_t number)
+static const occ_box *box_of(const layer *from, const obs_scene *scene, uint32_t number)
 {
-    return &scene->objects[number];
+    return from->of_occluders ? &scene->occluders[number].box : &scene->objects[number];
 }
 
-static const occ_box *occluder_box(const obs_scene *scene, uint32_t number)
+// Two directions in a face, as a raster names it.
+static void face_directions(const layer *from, const obs_scene *scene, uint32_t face, float u[3],
+                            float v[3])
 {
-    return &scene->occluders[number].box;
+    uint32_t number = face / 6, axis = face % 6 / 2;
+    const occ_sheet *sheet = from->of_occluders ? obs_occluder_sheet(scene, number) : NULL;
+    const occ_box *box = sheet ? NULL : box_of(from, scene, number);
+    for (int k = 0; k < 3; k++) {
+        u[k] = box ? box->axis[(axis + 1) % 3][k] : sheet->corner[1][k] - sheet->corner[0][k];
+        v[k] = box ? box->axis[(axis + 2) % 3][k] : sheet->corner[2][k] - sheet->corner[0][k];
+    }
 }
 
 // By which way a face looks: light from above, a little from one side.
-static canvas_color shade(canvas_color color, const occ_box *box, uint32_t face)
+static canvas_color shade(const layer *from, const obs_scene *scene, uint32_t face)
 {
-    const float *u = box->axis[(face / 2 + 1) % 3], *v = box->axis[(face / 2 + 2) % 3];
-    float n[3], square = 1e-30f;
+    canvas_color color = from->color;
+    float u[3], v[3], n[3], square = 1e-30f;
+    face_directions(from, scene, face, u, v);
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         n[k] = u[i] * v[j] - u[j] * v[i];
@@ -73,9 +82,9 @@ static void paint(layers *l, const layer *from, int x, int y)
     size_t i = (size_t)y * (size_t)r->width + (size_t)x;
     int cx = l->panel.x + x, cy = l->panel.y + y;
     if (r->face[i] != RASTER_EMPTY) {
-        const occ_box *box = from->box_of(l->facts->scene, r->face[i] / 6);
+        canvas_color color = shade(from, l->facts->scene, r->face[i]);
         bool stripe = !from->striped || (x + y) % STRIPE_PERIOD < STRIPE_WIDTH;
-        if (stripe) canvas_mix(l->c, cx, cy, shade(from->color, box, r->face[i] % 6), from->fill);
+        if (stripe) canvas_mix(l->c, cx, cy, color, from->fill);
     }
     if (is_edge(r, x, y)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
 }
@@ -87,7 +96,7 @@ static bool occluder_shows(const layers *l, size_t i)
     uint32_t face = l->occluders.raster.face[i], object = l->visible.raster.face[i];
     if (face == RASTER_EMPTY) return false;
     if (object == RASTER_EMPTY) return true;
-    uint32_t owner = l->facts->scene->occluders[face / 6].owner;
+    uint32_t owner = obs_occluder_owner(l->facts->scene, face / 6);
     float front = l->visible.raster.depth[i];
     return owner == object / 6 || l->occluders.raster.depth[i] <= front + 1e-3f * (1 - front);
 }
@@ -105,6 +114,16 @@ static void compose(layers *l)
         }
 }
 
+static void draw_occluder(raster *to, const raster_camera *camera, const obs_scene *scene,
+                          uint32_t number)
+{
+    const occ_sheet *sheet = obs_occluder_sheet(scene, number);
+    if (sheet)
+        raster_sheet(to, camera, sheet, number);
+    else
+        raster_box(to, camera, &scene->occluders[number].box, number);
+}
+
 static void draw_boxes(layers *l)
 {
     const obs_scene *scene = l->facts->scene;
@@ -118,14 +137,10 @@ static void draw_boxes(layers *l)
         if (!to || (facts->explained && to != &l->visible.raster && i != facts->object)) continue;
         raster_box(to, &camera, &scene->objects[i], i);
     }
-    for (size_t i = 0; i < facts->used_count; i++) {
-        uint32_t place = facts->used[i];
-        raster_box(&l->occluders.raster, &camera, &scene->occluders[place].box, place);
-    }
-    for (size_t i = 0; i < facts->culprit_count; i++) {
-        uint32_t place = facts->culprits[i];
-        raster_box(&l->culprits.raster, &camera, &scene->occluders[place].box, place);
-    }
+    for (size_t i = 0; i < facts->used_count; i++)
+        draw_occluder(&l->occluders.raster, &camera, scene, facts->used[i]);
+    for (size_t i = 0; i < facts->culprit_count; i++)
+        draw_occluder(&l->culprits.raster, &camera, scene, facts->culprits[i]);
 }
 
 // Sky to horizon, so that empty pixels do not read as a surface.
@@ -145,7 +160,7 @@ static canvas_color half_of(canvas_color color)
 
 static layer make_layer(canvas_color color, bool shines_through)
 {
-    layer l = {.box_of = object_box, .color = color, .line_color = half_of(color)};
+    layer l = {.color = color, .line_color = half_of(color)};
     l.striped = shines_through;
     l.fill = shines_through ? 0.8f : 1.0f;
     l.line = shines_through ? 0.9f : 0.45f;
@@ -159,7 +174,7 @@ bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *fact
     int width = panel.width, height = panel.height;
     l.visible = make_layer(picture_colors[PICTURE_VISIBLE], false);
     l.occluders = make_layer(picture_occluder_color, false);
-    l.occluders.box_of = occluder_box;
+    l.occluders.of_occluders = true;
     l.occluders.fill = 0.75f;
     l.culprits = l.occluders;
     l.culprits.color = picture_culprit_color;

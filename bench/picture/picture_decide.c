@@ -46,7 +46,7 @@ static void raise_visible(decider *d, picture_verdict from, picture_verdict to)
 static bool read_used(decider *d)
 {
     picture_facts *facts = d->facts;
-    size_t capacity = facts->scene->occluder_count;
+    size_t capacity = obs_occluder_total(facts->scene);
     occ_occluder *used = malloc((capacity + 1) * sizeof *used);
     facts->used = malloc((capacity + 1) * sizeof *facts->used);
     bool good = used && facts->used;
@@ -86,7 +86,8 @@ static bool explain(decider *d, uint32_t object)
 {
     picture_facts *facts = d->facts;
     occ_fate fate;
-    facts->culprits = malloc(((size_t)facts->scene->occluder_count + 1) * sizeof *facts->culprits);
+    facts->culprits =
+        malloc(((size_t)obs_occluder_total(facts->scene) + 1) * sizeof *facts->culprits);
     if (!facts->culprits) return out_of_memory();
     if (!loaded_explain(&d->loaded, d->view, object, &fate, facts->culprits, &facts->culprit_count))
         return false;

@@ -233,6 +233,24 @@ static bool draw_objects(const map *m)
     return true;
 }
 
+// An occluder's footprint and, of a sheet, its bounds.
+static int occluder_footprint(const map *m, uint32_t number, occ_box *box, double (*hull)[2])
+{
+    const occ_sheet *sheet = obs_occluder_sheet(m->facts->scene, number);
+    double points[8][2];
+    if (!sheet) {
+        *box = m->facts->scene->occluders[number].box;
+        return footprint(m, box, hull);
+    }
+    for (uint32_t i = 0; i < 8; i++) { // the last corner as often as there are too few
+        const float *p = sheet->corner[i < sheet->corner_count ? i : sheet->corner_count - 1];
+        to_panel(m, (double)p[0], (double)p[2], points[i]);
+    }
+    if (occ_box_from_points(sheet->corner[0], sheet->corner_count, 0, box) != OCC_SUCCESS)
+        *box = (occ_box){{0}, {{0}}}; // too far off for the library
+    return hull_of(points, hull);
+}
+
 // Whether a box stands: floors and ceilings would cover the map.
 static bool is_upright(const occ_box *box)
 {
@@ -245,12 +263,12 @@ static void draw_occluders(const map *m, const uint32_t *places, size_t places_c
 {
     for (size_t i = places_count; i-- > 0;) {
         double hull[16][2];
-        const occ_box *box = &m->facts->scene->occluders[places[i]].box;
-        if (!in_panel(m, box)) continue;
-        int count = footprint(m, box, hull);
-        double area = 4 * box_reach(box, 0) * box_reach(box, 2) * m->scale * m->scale;
+        occ_box box;
+        int count = occluder_footprint(m, places[i], &box, hull);
+        if (!in_panel(m, &box)) continue;
+        double area = 4 * box_reach(&box, 0) * box_reach(&box, 2) * m->scale * m->scale;
         bool large = area > 0.05 * m->panel.width * m->panel.height;
-        bool upright = is_upright(box);
+        bool upright = is_upright(&box);
         canvas_polygon(m->c, (const double(*)[2])hull, count, color,
                        large     ? 0.1f
                        : upright ? 0.8f

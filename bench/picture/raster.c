@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A polygon of clip-space points: a quad, and one more corner from cutting it.
+// A polygon of clip-space points: a quad or a triangle, and one more corner from cutting it.
 typedef struct clip_polygon {
     double at[8][4];
     int count;
@@ -130,12 +130,12 @@ static void draw_polygon(raster *r, const screen_point *p, int count, uint32_t f
     }
 }
 
-static void draw_face(raster *r, const raster_camera *camera, const double corner[4][3],
+static void draw_face(raster *r, const raster_camera *camera, const double (*corner)[3], int count,
                       uint32_t face)
 {
-    clip_polygon p = {.count = 4};
+    clip_polygon p = {.count = count};
     screen_point screen[8];
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < count; i++)
         to_clip(camera, corner[i], p.at[i]);
     p = cut_near(&p);
     if (p.count < 3) return;
@@ -187,7 +187,32 @@ void raster_box(raster *r, const raster_camera *camera, const occ_box *box, uint
             for (int k = 0; k < 3; k++)
                 corner[i][k] = center[k] + side * a[k] + (i == 1 || i == 2 ? u[k] : -u[k]) +
                                (i >= 2 ? v[k] : -v[k]);
-        draw_face(r, camera, (const double(*)[3])corner, 6 * number + face);
+        draw_face(r, camera, (const double(*)[3])corner, 4, 6 * number + face);
+    }
+}
+
+// Whether the eye is where the corners go counterclockwise.
+static bool is_before(const raster_camera *camera, double corner[3][3])
+{
+    double u[3], v[3], to_eye[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = corner[1][k] - corner[0][k];
+        v[k] = corner[2][k] - corner[0][k];
+        to_eye[k] = camera->eye[k] - corner[0][k] * camera->eye[3];
+    }
+    return dot_cross(to_eye, u, v) > 0;
+}
+
+void raster_sheet(raster *r, const raster_camera *camera, const occ_sheet *sheet, uint32_t number)
+{
+    for (uint32_t t = 0; t + 2 < sheet->corner_count; t++) {
+        const uint32_t from[3] = {0, t + 1, t + 2};
+        double corner[3][3];
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                corner[c][k] = (double)sheet->corner[from[c]][k];
+        if (sheet->sides == OCC_SIDES_FRONT && !is_before(camera, corner)) continue;
+        draw_face(r, camera, (const double(*)[3])corner, 3, 6 * number);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Boxes drawn from a camera into a depth buffer.
+/// Boxes and sheets drawn from a camera into a depth buffer.
 #ifndef OCC_BENCH_RASTER_H
 #define OCC_BENCH_RASTER_H
 
@@ -10,7 +10,8 @@
 typedef struct raster {
     int width, height;
     float *depth;   ///< Clip z over w: less is nearer.
-    uint32_t *face; ///< 6 * the box's number + the face's (0 to 5): axis * 2 + (positive side).
+    uint32_t *face; ///< 6 * the box's number + the face's (0 to 5): axis * 2 + (positive side). A
+                    ///< sheet has face 0 alone.
 } raster;
 
 #define RASTER_EMPTY UINT32_MAX
@@ -29,6 +30,9 @@ bool raster_create(raster *r, int width, int height);
 /// Draws the faces of a box that are turned to the eye (both sides of a flat one), as far as they
 /// are beyond the near plane. From inside a box nothing of it is seen.
 void raster_box(raster *r, const raster_camera *camera, const occ_box *box, uint32_t number);
+
+/// Draws a sheet from the sides from which it hides, as far as it is beyond the near plane.
+void raster_sheet(raster *r, const raster_camera *camera, const occ_sheet *sheet, uint32_t number);
 
 void raster_free(raster *r);
 

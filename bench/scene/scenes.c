@@ -105,7 +105,7 @@ int bench_scene(int argc, char **argv)
     bool written = obs_write(out, &scene);
     if (written)
         printf("%s: %u objects, %u occluders, %u frames\n", out, scene.object_count,
-               scene.occluder_count, scene.frame_count);
+               obs_occluder_total(&scene), scene.frame_count);
     obs_free(&scene);
     return written ? 0 : 1;
 }

@@ -12,6 +12,12 @@
 // further occluder changes that.
 enum { FIRST_TRIED = SETTLE_BEST, THEN_TIMES = 6 };
 
+typedef struct settle_given {
+    occ_box *boxes;
+    occ_sheet *sheets;
+    uint32_t box_count, sheet_count;
+} settle_given;
+
 struct settle {
     const obs_scene *scene;
     const truth_result *truth;
@@ -21,7 +27,7 @@ struct settle {
     judge *judge;
     settle_candidate *candidates; // of the object in hand
     uint32_t candidate_count;
-    occ_box *boxes;
+    settle_given given; // what the judge is given of them
 };
 
 const char *settle_check(const obs_scene *scene, const truth_result *truth)
@@ -36,13 +42,14 @@ settle *settle_create(const obs_scene *scene, const truth_result *truth)
 {
     settle *s = calloc(1, sizeof *s);
     if (!s) return NULL;
-    size_t occluders = (size_t)scene->occluder_count + 1;
+    size_t occluders = (size_t)obs_occluder_total(scene) + 1;
     s->scene = scene;
     s->truth = truth;
     s->verdicts = calloc((size_t)truth->object_count * truth->frame_count + 1, 1);
     s->candidates = malloc(occluders * sizeof *s->candidates);
-    s->boxes = malloc(occluders * sizeof *s->boxes);
-    if (s->verdicts && s->candidates && s->boxes) return s;
+    s->given.boxes = malloc(((size_t)scene->occluder_count + 1) * sizeof *s->given.boxes);
+    s->given.sheets = malloc(((size_t)scene->sheet_count + 1) * sizeof *s->given.sheets);
+    if (s->verdicts && s->candidates && s->given.boxes && s->given.sheets) return s;
     settle_destroy(s);
     return NULL;
 }
@@ -60,7 +67,8 @@ void settle_destroy(settle *s)
     leave_frame(s);
     free(s->verdicts);
     free(s->candidates);
-    free(s->boxes);
+    free(s->given.boxes);
+    free(s->given.sheets);
     free(s);
 }
 
@@ -88,27 +96,33 @@ static const char *enter_frame(settle *s, uint32_t index)
     return s->judge ? NULL : "its camera has no eye or no direction of view";
 }
 
-// Adds boxes from the list of candidates, as many as `wanted` in all if there are so many, and
-// returns how many there are then. `*next` is the first candidate not looked at yet.
-static uint32_t add_boxes(settle *s, uint32_t object, bool only_plain, uint32_t boxes,
-                          uint32_t wanted, uint32_t *next)
+// Adds from the list of candidates to what is given, as many as `wanted` in all if there are so
+// many. `*next` is the first candidate not looked at yet.
+static void give(settle *s, uint32_t object, bool only_plain, uint32_t wanted, uint32_t *next)
 {
-    for (; boxes < wanted && *next < s->candidate_count; ++*next) {
-        const occ_box *box = &s->scene->occluders[s->candidates[*next].occluder].box;
-        if (!only_plain || settle_frame_is_plain(&s->frame, box, &s->scene->objects[object]))
-            s->boxes[boxes++] = *box;
+    settle_given *given = &s->given;
+    for (; given->box_count + given->sheet_count < wanted && *next < s->candidate_count; ++*next) {
+        uint32_t occluder = s->candidates[*next].occluder;
+        const occ_sheet *sheet = obs_occluder_sheet(s->scene, occluder);
+        if (only_plain && !settle_frame_is_plain(&s->frame, occluder, &s->scene->objects[object]))
+            continue;
+        if (sheet)
+            given->sheets[given->sheet_count++] = *sheet;
+        else
+            given->boxes[given->box_count++] = s->scene->occluders[occluder].box;
     }
-    return boxes;
 }
 
 // Whether the judge sees the object past its candidates, or past the plain ones. Some of them may
 // be enough to say that it does not.
 static bool is_seen(settle *s, uint32_t object, bool only_plain)
 {
-    uint32_t boxes = 0, next = 0;
+    uint32_t next = 0;
+    s->given.box_count = s->given.sheet_count = 0;
     for (uint32_t wanted = FIRST_TRIED;; wanted *= THEN_TIMES) {
-        boxes = add_boxes(s, object, only_plain, boxes, wanted, &next);
-        judge_set_occluders(s->judge, s->boxes, NULL, boxes);
+        give(s, object, only_plain, wanted, &next);
+        judge_set_occluders(s->judge, s->given.boxes, NULL, s->given.box_count);
+        judge_add_sheets(s->judge, s->given.sheets, NULL, s->given.sheet_count);
         if (!judge_sees(s->judge, &s->scene->objects[object], -1)) return false;
         if (next == s->candidate_count) return true;
     }

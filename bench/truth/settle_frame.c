@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seen from the eye, boxes are intervals of x / w and y / w, whose ends are at corners, and of
-// depth. A segment from the eye to a point has the point's x / w and y / w and no greater depth, so
-// an occluder whose intervals are apart from the object's never meets one.
+// Seen from the eye, boxes and sheets are intervals of x / w and y / w, whose ends are at corners,
+// and of depth. A segment from the eye to a point has the point's x / w and y / w and no greater
+// depth, so an occluder whose intervals are apart from the object's never meets one.
 #include "settle_frame.h"
 
 #include <math.h>
@@ -14,15 +14,46 @@
 
 enum { X, Y, W, DEPTH, VALUES };
 
-// A box's corners in the camera's coordinates, and what these may have lost.
+// The corners of a box or a sheet in the camera's coordinates, and what these may have lost.
 typedef struct sighting {
+    int count;
     double at[8][VALUES], loss[VALUES];
 } sighting;
 
-static void sight(const truth_view *view, const occ_box *box, sighting *s)
+typedef char sheet_fits_a_sighting[OCC_SHEET_CORNERS <= 8 ? 1 : -1];
+
+// `reach` is the magnitude of what the corners are computed from.
+static void sight_corners(const truth_view *view, double (*corner)[3], const double reach[3],
+                          sighting *s)
 {
     const double *rows[VALUES] = {view->row[0], view->row[1], view->row[2], view->depth};
+    for (int i = 0; i < VALUES; i++) {
+        const double *row = rows[i];
+        const double size[3] = {fabs(row[0]), fabs(row[1]), fabs(row[2])};
+        s->loss[i] = LOSS * (truth_dot(size, reach) + fabs(row[3]));
+        for (int c = 0; c < s->count; c++)
+            s->at[c][i] = truth_value(row, corner[c]);
+    }
+}
+
+static void sight_sheet(const truth_view *view, const occ_sheet *sheet, sighting *s)
+{
     double corner[8][3], reach[3];
+    s->count = (int)sheet->corner_count;
+    for (int j = 0; j < 3; j++) {
+        reach[j] = 0.0;
+        for (int c = 0; c < s->count; c++) {
+            corner[c][j] = (double)sheet->corner[c][j] - view->eye[j];
+            reach[j] = fmax(reach[j], fabs((double)sheet->corner[c][j]) + fabs(view->eye[j]));
+        }
+    }
+    sight_corners(view, corner, reach, s);
+}
+
+static void sight_box(const truth_view *view, const occ_box *box, sighting *s)
+{
+    double corner[8][3], reach[3];
+    s->count = 8;
     for (int j = 0; j < 3; j++) {
         reach[j] = fabs((double)box->center[j]) + fabs(view->eye[j]);
         for (int k = 0; k < 3; k++)
@@ -33,13 +64,7 @@ static void sight(const truth_view *view, const occ_box *box, sighting *s)
                 corner[c][j] += (c >> k & 1 ? 1.0 : -1.0) * (double)box->axis[k][j];
         }
     }
-    for (int i = 0; i < VALUES; i++) {
-        const double *row = rows[i];
-        const double size[3] = {fabs(row[0]), fabs(row[1]), fabs(row[2])};
-        s->loss[i] = LOSS * (truth_dot(size, reach) + fabs(row[3]));
-        for (int c = 0; c < 8; c++)
-            s->at[c][i] = truth_value(row, corner[c]);
-    }
+    sight_corners(view, corner, reach, s);
 }
 
 // Takes in a point whose w is more than what it may have lost.
@@ -54,20 +79,20 @@ static void widen(settle_extent *extent, const double at[VALUES], const double l
     }
 }
 
-// Of a box that is partly before `least`: the corners beyond, and the edges cut about there. A cut
-// that roundings put beside the plane is still a point of the edge whose w is between 0 and four
-// times `least`, which is enough.
+// Of what is partly before `least`: the corners beyond, and all lines between corners cut about
+// there, the edges among them. A cut that roundings put beside the plane is still a point of the
+// edge whose w is between 0 and four times `least`, which is enough.
 static void widen_beyond(settle_extent *extent, const sighting *s, double least)
 {
     double loss[VALUES];
     for (int i = 0; i < VALUES; i++)
         loss[i] = 8.0 * s->loss[i];
-    for (int c = 0; c < 8; c++) {
+    for (int c = 0; c < s->count; c++) {
         const double *from = s->at[c];
         if (from[W] < least) continue;
         widen(extent, from, loss);
-        for (int k = 0; k < 3; k++) {
-            const double *to = s->at[c ^ 1 << k];
+        for (int k = 0; k < s->count; k++) {
+            const double *to = s->at[k];
             if (to[W] >= least) continue;
             double t = (from[W] - least) / (from[W] - to[W]), cut[VALUES];
             for (int i = 0; i < VALUES; i++)
@@ -77,29 +102,27 @@ static void widen_beyond(settle_extent *extent, const sighting *s, double least)
     }
 }
 
-// False if the box is surely outside the frustum.
-static bool find_extent(const settle_frame *frame, const occ_box *box, settle_extent *extent)
+// False if all of it is surely outside the frustum.
+static bool find_extent(const settle_frame *frame, const sighting *s, settle_extent *extent)
 {
-    sighting s;
-    sight(&frame->view, box, &s);
     double nearest = INFINITY, farthest = -INFINITY;
     for (int i = 0; i < 3; i++) {
         extent->low[i] = INFINITY;
         extent->high[i] = -INFINITY;
     }
-    for (int c = 0; c < 8; c++) {
-        nearest = fmin(nearest, s.at[c][W]);
-        farthest = fmax(farthest, s.at[c][W]);
-        extent->low[2] = fmin(extent->low[2], s.at[c][DEPTH] - s.loss[DEPTH]);
-        extent->high[2] = fmax(extent->high[2], s.at[c][DEPTH] + s.loss[DEPTH]);
+    for (int c = 0; c < s->count; c++) {
+        nearest = fmin(nearest, s->at[c][W]);
+        farthest = fmax(farthest, s->at[c][W]);
+        extent->low[2] = fmin(extent->low[2], s->at[c][DEPTH] - s->loss[DEPTH]);
+        extent->high[2] = fmax(extent->high[2], s->at[c][DEPTH] + s->loss[DEPTH]);
     }
     double least = frame->least_depth;
-    if (farthest + s.loss[W] < least) return false;
-    if (nearest > fmax(least, 16.0 * s.loss[W])) {
-        for (int c = 0; c < 8; c++)
-            widen(extent, s.at[c], s.loss);
-    } else if (least > 16.0 * s.loss[W]) {
-        widen_beyond(extent, &s, least);
+    if (farthest + s->loss[W] < least) return false;
+    if (nearest > fmax(least, 16.0 * s->loss[W])) {
+        for (int c = 0; c < s->count; c++)
+            widen(extent, s->at[c], s->loss);
+    } else if (least > 16.0 * s->loss[W]) {
+        widen_beyond(extent, s, least);
     } else {
         for (int i = 0; i < 2; i++) {
             extent->low[i] = -INFINITY;
@@ -108,6 +131,17 @@ static bool find_extent(const settle_frame *frame, const occ_box *box, settle_ex
     }
     return extent->low[X] <= 1.0 && extent->high[X] >= -1.0 && extent->low[Y] <= 1.0 &&
            extent->high[Y] >= -1.0;
+}
+
+static bool find_occluder_extent(const settle_frame *frame, uint32_t number, settle_extent *extent)
+{
+    sighting s;
+    const occ_sheet *sheet = obs_occluder_sheet(frame->scene, number);
+    if (sheet)
+        sight_sheet(&frame->view, sheet, &s);
+    else
+        sight_box(&frame->view, &frame->scene->occluders[number].box, &s);
+    return find_extent(frame, &s, extent);
 }
 
 // A quarter of the near corners' least depth, if these are what is nearest in the frustum, and far
@@ -158,7 +192,7 @@ static void bound_runs(settle_frame *frame)
 
 const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint32_t index)
 {
-    size_t occluders = scene->occluder_count;
+    size_t occluders = obs_occluder_total(scene);
     *frame = (settle_frame){.scene = scene};
     if (!truth_view_make(&frame->view, &scene->frames[index], 1, 1))
         return "its camera has no eye or no direction of view";
@@ -166,9 +200,9 @@ const char *settle_frame_make(settle_frame *frame, const obs_scene *scene, uint3
     frame->extents = malloc((occluders + 1) * sizeof *frame->extents);
     frame->runs = malloc((occluders / SETTLE_RUN + 1) * sizeof *frame->runs);
     if (!frame->extents || !frame->runs) return "not enough memory";
-    for (uint32_t i = 0; i < scene->occluder_count; i++) {
+    for (uint32_t i = 0; i < occluders; i++) {
         settle_extent *extent = &frame->extents[frame->count];
-        if (!find_extent(frame, &scene->occluders[i].box, extent)) continue;
+        if (!find_occluder_extent(frame, i, extent)) continue;
         extent->occluder = i;
         extent->place = find_place(extent);
         frame->count++;
@@ -218,7 +252,7 @@ static void rank(settle_candidate *list, uint32_t count)
     }
 }
 
-// Whether a box, or some of a run, can be before the object and over it.
+// Whether an occluder, or some of a run, can be before the object and over it.
 static bool can_cover(const settle_extent *other, const settle_extent *object)
 {
     return other->low[2] <= object->high[2] && other->low[X] <= object->high[X] &&
@@ -228,9 +262,11 @@ static bool can_cover(const settle_extent *other, const settle_extent *object)
 
 uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_candidate *list)
 {
+    sighting s;
     settle_extent extent;
     uint32_t found = 0;
-    if (!find_extent(frame, &frame->scene->objects[object], &extent)) return 0;
+    sight_box(&frame->view, &frame->scene->objects[object], &s);
+    if (!find_extent(frame, &s, &extent)) return 0;
     for (int i = 0; i < 2; i++) {
         extent.low[i] = fmax(extent.low[i], -1.0);
         extent.high[i] = fmin(extent.high[i], 1.0);
@@ -240,7 +276,7 @@ uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_
         if (e % SETTLE_RUN == 0 && !can_cover(&frame->runs[e / SETTLE_RUN], &extent))
             e += SETTLE_RUN - 1;
         else if (can_cover(other, &extent) &&
-                 frame->scene->occluders[other->occluder].owner != object)
+                 obs_occluder_owner(frame->scene, other->occluder) != object)
             list[found++] = (settle_candidate){cover(other, &extent, X) * cover(other, &extent, Y),
                                                other->occluder};
     }

@@ -8,11 +8,12 @@
 
 #include "truth_shape.h"
 
-/// Where a box is for the camera: no point of it that is in the frustum is outside of these
-/// intervals. x and y run over the viewport's [-1, 1]; the third is the depth of truth_view.h.
+/// Where a box or a sheet is for the camera: no point of it that is in the frustum is outside of
+/// these intervals. x and y run over the viewport's [-1, 1]; the third is the depth of
+/// truth_view.h.
 typedef struct settle_extent {
     double low[3], high[3];
-    uint32_t occluder; ///< Whose extent it is.
+    uint32_t occluder; ///< Whose extent it is: its number in the scene, as in obs.h.
     uint32_t place;    ///< Where its middle is in the viewport, near places having near numbers.
 } settle_extent;
 
@@ -53,7 +54,6 @@ uint32_t settle_frame_select(const settle_frame *frame, uint32_t object, settle_
 /// Whether an occluder hides by every reading what is behind it: it is not seen edge-on, the near
 /// plane does not cut it open within the frustum, and nothing of the object is in a surface of it
 /// that looks towards the eye.
-bool settle_frame_is_plain(const settle_frame *frame, const occ_box *occluder,
-                           const occ_box *object);
+bool settle_frame_is_plain(const settle_frame *frame, uint32_t occluder, const occ_box *object);
 
 #endif

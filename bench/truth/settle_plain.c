@@ -113,8 +113,7 @@ static bool is_behind(const truth_view *view, const occ_box *occluder, const occ
     return true;
 }
 
-bool settle_frame_is_plain(const settle_frame *frame, const occ_box *occluder,
-                           const occ_box *object)
+static bool is_plain_box(const settle_frame *frame, const occ_box *occluder, const occ_box *object)
 {
     const truth_view *view = &frame->view;
     bool is_perspective = view->row[2][3] == 0.0;
@@ -122,4 +121,79 @@ bool settle_frame_is_plain(const settle_frame *frame, const occ_box *occluder,
     return truth_solids_of(view, occluder, solids) > 0 && is_whole(view, occluder) &&
            ((is_perspective && is_behind(view, occluder, object)) ||
             are_apart(view, occluder, object));
+}
+
+// --- sheets --------------------------------------------------------------------------------------
+
+// Where a sheet's corners are along a direction, counted from the eye, and the magnitude of what
+// that is computed from.
+typedef struct span {
+    double low, high, size;
+} span;
+
+static span span_of(const truth_view *view, const occ_sheet *sheet, const double along[3])
+{
+    span s = {INFINITY, -INFINITY, 0.0};
+    for (uint32_t c = 0; c < sheet->corner_count; c++) {
+        double at = 0.0, size = 0.0;
+        for (int j = 0; j < 3; j++) {
+            at += along[j] * ((double)sheet->corner[c][j] - view->eye[j]);
+            size += fabs(along[j]) * (fabs((double)sheet->corner[c][j]) + fabs(view->eye[j]));
+        }
+        s.low = fmin(s.low, at);
+        s.high = fmax(s.high, at);
+        s.size = fmax(s.size, size);
+    }
+    return s;
+}
+
+// Clearly between the eye, with all that the near plane takes away, and the object; or clearly
+// beside the object.
+static bool parts(const truth_view *view, const occ_sheet *sheet, const occ_box *object,
+                  const double along[3], bool *is_before)
+{
+    span s = span_of(view, sheet, along);
+    double size, reach = reach_of(object, along), place = place_of(view, object, along, &size);
+    double margin = CLEARLY * (reach + size + s.size), low = 0.0, high = 0.0;
+    for (int c = 0; c < 4; c++) {
+        double at = truth_dot(along, view->near_corner[c]);
+        low = fmin(low, at);
+        high = fmax(high, at);
+    }
+    margin += CLEARLY * (high - low);
+    bool is_above = place - reach > s.high + margin, is_below = place + reach < s.low - margin;
+    *is_before = (is_above && s.low > high + margin) || (is_below && s.high < low - margin);
+    return is_above || is_below;
+}
+
+// As for boxes; a sheet that is bent has a surface to every triangle.
+static bool is_plain_sheet(const settle_frame *frame, const occ_sheet *sheet, const occ_box *object)
+{
+    const truth_view *view = &frame->view;
+    bool is_perspective = view->row[2][3] == 0.0, is_before, is_apart = false, is_whole = true;
+    for (uint32_t t = 0; t + 2 < sheet->corner_count; t++) {
+        truth_solid solid;
+        if (!truth_triangle_of(view, sheet, t, &solid)) return false;
+        is_apart = parts(view, sheet, object, solid.normal, &is_before) || is_apart;
+        is_whole = is_whole && is_before && is_perspective;
+    }
+    if (is_whole) return true;
+    const double *near_plane = view->plane[TRUTH_NEAR];
+    span s = span_of(view, sheet, near_plane);
+    if (s.low + near_plane[3] <= CLEARLY * (s.size + fabs(near_plane[3]))) return false;
+    for (int k = 0; k < 3; k++) {
+        double unit[3] = {0.0, 0.0, 0.0}, normal[3];
+        unit[k] = 1.0;
+        normal_of(object, k, normal);
+        is_apart = parts(view, sheet, object, unit, &is_before) || is_apart;
+        is_apart = parts(view, sheet, object, normal, &is_before) || is_apart;
+    }
+    return is_apart;
+}
+
+bool settle_frame_is_plain(const settle_frame *frame, uint32_t occluder, const occ_box *object)
+{
+    const occ_sheet *sheet = obs_occluder_sheet(frame->scene, occluder);
+    return sheet ? is_plain_sheet(frame, sheet, object)
+                 : is_plain_box(frame, &frame->scene->occluders[occluder].box, object);
 }

@@ -22,13 +22,38 @@ typedef struct tile {
     tile_block block[TILE_BLOCKS][TILE_BLOCKS];
 } tile;
 
-// A solid's own coordinates of a ray: constant, and per x and y of the viewport.
+// A solid's own coordinates of a ray: constant, and per x and y of the viewport. Of a triangle
+// those of the edges, see truth_pass(), and how it faces the ray and is ahead of its origin.
 typedef struct slabs {
     double origin[3][3], direction[3][3], extent[3]; // [axis][part]
+    truth_kind kind;
+    double pass[3][3], facing[3], ahead[3]; // [edge][part]
 } slabs;
+
+// A perspective ray changes its direction alone, an orthographic one its origin, and so what
+// truth_pass() says is linear in x and y.
+static void set_edges(slabs *s, const truth_view *view, const truth_solid *solid)
+{
+    const double *constant = view->direction[0];
+    for (int part = 0; part < 3; part++) {
+        const double *origin = view->origin[part], *direction = view->direction[part];
+        bool is_moved = part > 0 && view->row[2][3] != 0.0;
+        for (int k = 0; k < 3; k++)
+            s->pass[k][part] = is_moved ? -truth_aside(solid, k, origin, constant)
+                                        : truth_pass(solid, k, origin, direction);
+        s->facing[part] = truth_dot(solid->normal, direction);
+        s->ahead[part] = -truth_dot(solid->normal, origin);
+    }
+    s->ahead[0] += truth_dot(solid->normal, solid->corner[0]);
+}
 
 static void set_slabs(slabs *s, const truth_view *view, const truth_solid *solid)
 {
+    s->kind = solid->kind;
+    if (solid->kind != TRUTH_SLABS) {
+        set_edges(s, view, solid);
+        return;
+    }
     for (int part = 0; part < 3; part++) {
         double origin[3];
         for (int j = 0; j < 3; j++)
@@ -41,10 +66,40 @@ static void set_slabs(slabs *s, const truth_view *view, const truth_solid *solid
     memcpy(s->extent, solid->extent, sizeof s->extent);
 }
 
+// A ray that misses leaves before it enters.
+static void cross_triangle(const slabs *s, const double x[BLOCK], double y, double *restrict enter,
+                           double *restrict leave)
+{
+    double most[BLOCK], least[BLOCK];
+    for (int i = 0; i < BLOCK; i++) {
+        most[i] = -INFINITY;
+        least[i] = s->kind == TRUTH_FRONT ? -1.0 : INFINITY; // from behind all are positive
+    }
+    for (int k = 0; k < 3; k++) {
+        double constant = s->pass[k][0] + y * s->pass[k][2];
+        for (int i = 0; i < BLOCK; i++) {
+            double pass = constant + x[i] * s->pass[k][1];
+            most[i] = pass > most[i] ? pass : most[i];
+            least[i] = pass < least[i] ? pass : least[i];
+        }
+    }
+    for (int i = 0; i < BLOCK; i++) {
+        double facing = s->facing[0] + y * s->facing[2] + x[i] * s->facing[1];
+        double ahead = s->ahead[0] + y * s->ahead[2] + x[i] * s->ahead[1];
+        bool is_met = (most[i] <= 0.0 || least[i] >= 0.0) && facing != 0.0;
+        enter[i] = is_met ? ahead / facing : INFINITY;
+        leave[i] = is_met ? enter[i] : -INFINITY;
+    }
+}
+
 // Where the rays of a row of samples enter and leave. They miss where they leave before they enter.
 static void cross_row(const slabs *s, const double x[BLOCK], double y, double *restrict enter,
                       double *restrict leave)
 {
+    if (s->kind != TRUTH_SLABS) {
+        cross_triangle(s, x, y, enter, leave);
+        return;
+    }
     for (int i = 0; i < BLOCK; i++) {
         enter[i] = -INFINITY;
         leave[i] = INFINITY;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a box touches of the frustum. A convex box and a convex frustum meet if a face of the box,
-// cut by the frustum's planes, leaves something, or if the box holds the frustum's near corners.
+// What boxes and triangles touch of the frustum. A convex box and a convex frustum meet if a face
+// of the box, cut by the frustum's planes, leaves something, or if the box holds the frustum's near
+// corners.
 #include "truth_shape.h"
 
 #include <math.h>
@@ -33,6 +34,12 @@ static void cut(truth_polygon *polygon, const double plane[4])
     }
 }
 
+static void cut_to_frustum(const truth_view *view, truth_polygon *polygon)
+{
+    for (int p = 0; p < TRUTH_PLANES && polygon->count > 0; p++)
+        if (view->has_plane[p]) cut(polygon, view->plane[p]);
+}
+
 void truth_face(const truth_view *view, const occ_box *box, int face, truth_polygon *polygon)
 {
     static const int turn[4] = {0, 1, 3, 2};
@@ -44,8 +51,7 @@ void truth_face(const truth_view *view, const occ_box *box, int face, truth_poly
         int corner = (face & 1) << k | (turn[c] & 1) << i | turn[c] >> 1 << j;
         memcpy(polygon->corner[c], corners[corner], sizeof corners[corner]);
     }
-    for (int p = 0; p < TRUTH_PLANES && polygon->count > 0; p++)
-        if (view->has_plane[p]) cut(polygon, view->plane[p]);
+    cut_to_frustum(view, polygon);
 }
 
 bool truth_face_is_seen(const truth_view *view, const occ_box *box, int face)
@@ -115,26 +121,55 @@ static int to_sample(double at, int count, int more)
     return sample < 0.0 ? 0 : sample > count ? count : (int)sample;
 }
 
-bool truth_outline_box(const truth_view *view, const occ_box *box, truth_outline *outline)
+// What all corners together say. False if they are outside one plane; `*is_crossing` if some are.
+static bool look_at_corners(const truth_view *view, double (*corners)[3], int count,
+                            bool *is_crossing)
 {
-    double corners[8][3], bounds[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    find_corners(view, box, corners);
-    bool is_crossing = false;
+    *is_crossing = false;
     for (int p = 0; p < TRUTH_PLANES; p++) {
         int inside = 0;
-        for (int i = 0; view->has_plane[p] && i < 8; i++)
+        for (int i = 0; view->has_plane[p] && i < count; i++)
             inside += truth_value(view->plane[p], corners[i]) >= 0.0;
         if (view->has_plane[p] && inside == 0) return false;
-        is_crossing |= view->has_plane[p] && inside < 8;
+        *is_crossing |= view->has_plane[p] && inside < count;
     }
+    return true;
+}
+
+static void set_outline(const truth_view *view, double (*corners)[3], int count,
+                        const double bounds[4], truth_outline *outline)
+{
     outline->depth = INFINITY;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < count; i++)
         outline->depth = fmin(outline->depth, truth_value(view->depth, corners[i]));
-        if (!is_crossing) widen(view, corners[i], bounds);
-    }
-    if (is_crossing && !bound_crossing(view, box, bounds)) return false;
     outline->rect =
         (truth_rect){to_sample(bounds[0], view->width, -1), to_sample(bounds[1], view->height, -1),
                      to_sample(bounds[2], view->width, 2), to_sample(bounds[3], view->height, 2)};
+}
+
+bool truth_outline_box(const truth_view *view, const occ_box *box, truth_outline *outline)
+{
+    double corners[8][3], bounds[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    bool is_crossing;
+    find_corners(view, box, corners);
+    if (!look_at_corners(view, corners, 8, &is_crossing)) return false;
+    for (int i = 0; !is_crossing && i < 8; i++)
+        widen(view, corners[i], bounds);
+    if (is_crossing && !bound_crossing(view, box, bounds)) return false;
+    set_outline(view, corners, 8, bounds, outline);
     return true;
+}
+
+bool truth_outline_triangle(const truth_view *view, double corner[3][3], truth_outline *outline)
+{
+    double bounds[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    bool is_crossing;
+    if (!look_at_corners(view, corner, 3, &is_crossing)) return false;
+    truth_polygon polygon = {.count = 3};
+    memcpy(polygon.corner, corner, 3 * sizeof *corner);
+    if (is_crossing) cut_to_frustum(view, &polygon);
+    for (int i = 0; i < polygon.count; i++)
+        widen(view, polygon.corner[i], bounds);
+    set_outline(view, corner, 3, bounds, outline);
+    return polygon.count > 0;
 }

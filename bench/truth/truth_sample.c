@@ -42,6 +42,17 @@ static bool add_box(const truth_view *view, truth_set *set, const occ_box *box,
     return true;
 }
 
+static bool add_sheet(const truth_view *view, truth_set *set, const obs_sheet *from)
+{
+    for (uint32_t t = 0; t + 2 < from->sheet.corner_count; t++) {
+        truth_solid solid = {.owner = from->owner};
+        if (truth_triangle_of(view, &from->sheet, t, &solid) &&
+            truth_outline_triangle(view, solid.corner, &solid.outline) && !add(set, &solid))
+            return false;
+    }
+    return true;
+}
+
 static int compare_depth(const void *a, const void *b)
 {
     const truth_solid *x = a, *y = b;
@@ -58,6 +69,8 @@ static bool gather(sampler *s)
             !add_box(&s->view, &s->occluders, &occluder->box, &outline, occluder->owner))
             return false;
     }
+    for (uint32_t i = 0; i < s->scene->sheet_count; i++)
+        if (!add_sheet(&s->view, &s->occluders, &s->scene->sheets[i])) return false;
     for (uint32_t i = 0; i < s->scene->object_count; i++) {
         const occ_box *box = &s->scene->objects[i];
         bool is_inside = truth_outline_box(&s->view, box, &outline);

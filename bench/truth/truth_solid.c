@@ -15,6 +15,7 @@ static double length_of(const double *v)
 static void set_up(truth_solid *solid, const double center[3], double axes[3][3], bool is_flat)
 {
     double normal[3][3];
+    solid->kind = TRUTH_SLABS;
     for (int k = 0; k < 3; k++)
         truth_cross(axes[(k + 1) % 3], axes[(k + 2) % 3], normal[k]);
     double determinant = truth_dot(axes[0], normal[0]);
@@ -83,9 +84,81 @@ int truth_solids_of(const truth_view *view, const occ_box *box,
     return 1;
 }
 
+static void bound_triangle(truth_solid *solid)
+{
+    for (int j = 0; j < 3; j++) {
+        double least = INFINITY, most = -INFINITY;
+        for (int c = 0; c < 3; c++) {
+            least = fmin(least, solid->corner[c][j]);
+            most = fmax(most, solid->corner[c][j]);
+        }
+        solid->center[j] = 0.5 * (least + most);
+        solid->half[j] = 0.5 * (most - least);
+    }
+}
+
+bool truth_triangle_of(const truth_view *view, const occ_sheet *sheet, uint32_t t,
+                       truth_solid *solid)
+{
+    const uint32_t corner[3] = {0, t + 1, t + 2};
+    solid->kind = sheet->sides == OCC_SIDES_FRONT ? TRUTH_FRONT : TRUTH_TRIANGLE;
+    for (int c = 0; c < 3; c++)
+        for (int j = 0; j < 3; j++)
+            solid->corner[c][j] = (double)sheet->corner[corner[c]][j] - view->eye[j];
+    double first[3], last[3];
+    for (int j = 0; j < 3; j++) {
+        first[j] = solid->corner[1][j] - solid->corner[0][j];
+        last[j] = solid->corner[2][j] - solid->corner[0][j];
+    }
+    truth_cross(first, last, solid->normal);
+    double area = length_of(solid->normal);
+    bound_triangle(solid);
+    return area > negligible * length_of(first) * length_of(last) &&
+           !is_edge_on(view, solid->corner[0], solid->normal);
+}
+
+double truth_aside(const truth_solid *solid, int k, const double origin[3],
+                   const double direction[3])
+{
+    const double *a = solid->corner[k], *b = solid->corner[(k + 1) % 3];
+    const double edge[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    double normal[3];
+    truth_cross(direction, edge, normal);
+    return truth_dot(origin, normal);
+}
+
+// The determinant of the direction and the corners' offsets from the origin.
+double truth_pass(const truth_solid *solid, int k, const double origin[3],
+                  const double direction[3])
+{
+    double moment[3];
+    truth_cross(solid->corner[k], solid->corner[(k + 1) % 3], moment);
+    return truth_dot(direction, moment) - truth_aside(solid, k, origin, direction);
+}
+
+static double enter_triangle(const truth_solid *solid, const double origin[3],
+                             const double direction[3])
+{
+    double least = INFINITY, most = -INFINITY, offset[3];
+    for (int k = 0; k < 3; k++) {
+        double pass = truth_pass(solid, k, origin, direction);
+        least = fmin(least, pass);
+        most = fmax(most, pass);
+        offset[k] = solid->corner[0][k] - origin[k];
+    }
+    double facing = truth_dot(solid->normal, direction);
+    bool is_met =
+        solid->kind == TRUTH_FRONT ? most <= 0.0 && facing < 0.0 : most <= 0.0 || least >= 0.0;
+    return is_met ? truth_dot(solid->normal, offset) / facing : INFINITY;
+}
+
 double truth_enter(const truth_solid *solid, const double origin[3], const double direction[3],
                    double low, double high)
 {
+    if (solid->kind != TRUTH_SLABS) {
+        double at = enter_triangle(solid, origin, direction);
+        return at >= low && at <= high ? at : INFINITY;
+    }
     double enter = -INFINITY, leave = INFINITY, offset[3];
     for (int j = 0; j < 3; j++)
         offset[j] = origin[j] - solid->center[j];

@@ -114,7 +114,7 @@ OCC_API OCC_NODISCARD occ_result occ_scene_move_many(occ_scene *scene, const occ
 OCC_API OCC_NODISCARD occ_result occ_scene_remove(occ_scene *scene, occ_object object);
 
 /// Adds an occluder: a box that lies wholly inside opaque geometry. A box with one zero axis is a
-/// flat sheet and must lie in an opaque surface. `owner` is the object it is part of and never
+/// parallelogram and must lie in an opaque surface. `owner` is the object it is part of and never
 /// hides; all zero: none.
 OCC_API OCC_NODISCARD occ_result occ_scene_add_occluder(occ_scene *scene, const occ_box *box,
                                                         occ_object owner, occ_occluder *occluder);
@@ -125,9 +125,25 @@ OCC_API OCC_NODISCARD occ_result occ_scene_add_occluders(occ_scene *scene, const
                                                          const occ_object *owners, size_t count,
                                                          occ_occluder *occluders);
 
-/// Gives an occluder another box.
+/// Adds a sheet as an occluder: see occ_sheet. It must lie in an opaque surface, and hides what is
+/// strictly behind it. One whose corners lie in a line, or in a point, hides nothing. Handles,
+/// owners and limits are those of the other occluders.
+OCC_API OCC_NODISCARD occ_result occ_scene_add_sheet(occ_scene *scene, const occ_sheet *sheet,
+                                                     occ_object owner, occ_occluder *occluder);
+
+/// Adds `count` sheets: all of them, or on an error none. `owners` may be NULL (none has one), and
+/// so may `occluders`.
+OCC_API OCC_NODISCARD occ_result occ_scene_add_sheets(occ_scene *scene, const occ_sheet *sheets,
+                                                      const occ_object *owners, size_t count,
+                                                      occ_occluder *occluders);
+
+/// Gives an occluder another box. If it was a sheet, it is a box from here on.
 OCC_API OCC_NODISCARD occ_result occ_scene_move_occluder(occ_scene *scene, occ_occluder occluder,
                                                          const occ_box *box);
+
+/// Gives an occluder another sheet. If it was a box, it is a sheet from here on.
+OCC_API OCC_NODISCARD occ_result occ_scene_move_sheet(occ_scene *scene, occ_occluder occluder,
+                                                      const occ_sheet *sheet);
 
 /// Removes an occluder.
 OCC_API OCC_NODISCARD occ_result occ_scene_remove_occluder(occ_scene *scene, occ_occluder occluder);
@@ -146,9 +162,16 @@ OCC_API OCC_NODISCARD occ_result occ_scene_box(const occ_scene *scene, occ_objec
                                                occ_box *box);
 
 /// The box that an occluder was last given, and the object that owns it. Either result may be NULL.
+/// Of a sheet: OCC_ERROR_INVALID_ARGUMENT.
 OCC_API OCC_NODISCARD occ_result occ_scene_occluder_box(const occ_scene *scene,
                                                         occ_occluder occluder, occ_box *box,
                                                         occ_object *owner);
+
+/// The sheet that an occluder was last given, zero where it has no corners, and the object that
+/// owns it. Either result may be NULL. Of a box: OCC_ERROR_INVALID_ARGUMENT.
+OCC_API OCC_NODISCARD occ_result occ_scene_occluder_sheet(const occ_scene *scene,
+                                                          occ_occluder occluder, occ_sheet *sheet,
+                                                          occ_object *owner);
 
 /// One more than the highest slot ever used: the number of bits in a mask. 0 for NULL.
 OCC_API uint32_t occ_scene_slot_count(const occ_scene *scene);
@@ -156,7 +179,7 @@ OCC_API uint32_t occ_scene_slot_count(const occ_scene *scene);
 /// Sizes of a scene, for logs and tests.
 typedef struct occ_scene_stats {
     uint32_t objects;        ///< Objects in the scene.
-    uint32_t occluders;      ///< Occluders in the scene.
+    uint32_t occluders;      ///< Occluders in the scene, boxes and sheets.
     uint32_t slots;          ///< occ_scene_slot_count().
     uint32_t object_nodes;   ///< Octree nodes over the objects.
     uint32_t occluder_nodes; ///< Octree nodes over the occluders.
