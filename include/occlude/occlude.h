@@ -48,6 +48,7 @@
 #include "cull.h"
 #include "inner.h"
 #include "scene.h"
+#include "sheets.h"
 #include "soup.h"
 #include "version.h"
 
