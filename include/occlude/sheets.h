@@ -64,7 +64,7 @@ OCC_API OCC_NODISCARD occ_result occ_sheets_find(const occ_soup *soup, const occ
 /// Why a sheet is none.
 typedef enum occ_sheet_reason {
     OCC_SHEET_SOUND = 0,   ///< It is one.
-    OCC_SHEET_CORNERS = 1, ///< It has too few corners or too many, or its sides are not the desc's.
+    OCC_SHEET_MISMADE = 1, ///< It has too few corners or too many, or its sides are not the desc's.
     OCC_SHEET_FLAT = 2,    ///< All its corners are in line.
     OCC_SHEET_BENT = 3,    ///< It is in one plane, but not convex.
     OCC_SHEET_OPEN = 4     ///< No opaque triangles are proven to be all over it.
