@@ -50,6 +50,7 @@
 #include "inner.h"
 #include "instances.h"
 #include "scene.h"
+#include "sheets.h"
 #include "soup.h"
 #include "version.h"
 
