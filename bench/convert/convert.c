@@ -7,10 +7,9 @@
 #include "obs.h"
 #include "options.h"
 #include "path.h"
-#include "sheets.h"
 #include "solids.h"
+#include "walls.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,17 +17,17 @@ typedef struct convert_arguments {
     const char *model, *out, *names;
     division_options division;
     solids_wish solids;
-    uint32_t frames, most_sheets;
-    double eye_height, least_area;
+    walls_wish walls;
+    uint32_t frames;
+    double eye_height;
 } convert_arguments;
 
 // What was made.
 typedef struct conversion {
     division objects;
-    sheet_list sheets;
-    uint32_t kept_sheets;
     obs_scene scene;
     path_report path;
+    walls_report walls;
     solids_report solids;
 } conversion;
 
@@ -52,8 +51,9 @@ static const char convert_usage[] =
     "                       written)\n"
     "  --see-through LIST   patterns of materials or meshes that light passes, with commas\n"
     "                       between (such as glass*,water): these never occlude\n"
-    "  --sheets K           at most so many sheets, largest first (default: all)\n"
+    "  --sheets K           at most so many sheets, those that cover most first (default: all)\n"
     "  --min-sheet A        leave out sheets of an area below A (default 0)\n"
+    "  --one-sided          triangles are drawn from where they go counterclockwise only\n"
     "  --inner K            at most so many inner boxes of the model as a whole (default 256)\n"
     "  --inner-mesh K       and of each mesh that stands in several places (default 8)\n"
     "  --coverage C         enough of the silhouette for inner boxes, 0 to 1 (default: all)\n"
@@ -82,7 +82,7 @@ static int parse_convert(int argc, char **argv, convert_arguments *arguments)
     *arguments = (convert_arguments){.division = division_defaults(),
                                      .solids = {.most = 256, .most_placed = 8},
                                      .frames = 60,
-                                     .most_sheets = UINT32_MAX};
+                                     .walls = {.most = UINT32_MAX}};
     division_options *dividing = &arguments->division;
     solids_wish *solids = &arguments->solids;
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
@@ -93,8 +93,9 @@ static int parse_convert(int argc, char **argv, convert_arguments *arguments)
                                      {"--eye", OPTIONS_REAL, &arguments->eye_height},
                                      {"--up", OPTIONS_TEXT, &dividing->up},
                                      {"--see-through", OPTIONS_TEXT, &dividing->see_through},
-                                     {"--sheets", OPTIONS_MOST, &arguments->most_sheets},
-                                     {"--min-sheet", OPTIONS_REAL, &arguments->least_area},
+                                     {"--sheets", OPTIONS_MOST, &arguments->walls.most},
+                                     {"--min-sheet", OPTIONS_REAL, &arguments->walls.min_area},
+                                     {"--one-sided", OPTIONS_FLAG, &arguments->walls.one_sided},
                                      {"--inner", OPTIONS_MOST, &solids->most},
                                      {"--inner-mesh", OPTIONS_MOST, &solids->most_placed},
                                      {"--coverage", OPTIONS_REAL, &solids->coverage},
@@ -118,21 +119,6 @@ static bool add_objects(const division *d, obs_scene *scene)
     return true;
 }
 
-static bool add_sheets(const convert_arguments *arguments, const model *m, conversion *c)
-{
-    if (!arguments->most_sheets) return true;
-    if (!sheets_find(m, &c->sheets)) return library_out_of_memory();
-    for (uint32_t i = 0; i < c->sheets.count && i < arguments->most_sheets; i++) {
-        const sheet *s = &c->sheets.at[i];
-        if (s->area < arguments->least_area) break;
-        uint32_t owner = c->objects.object_of[s->triangles[0]];
-        if (obs_add_occluder(&c->scene, &s->box, owner) == UINT32_MAX)
-            return library_out_of_memory();
-        c->kept_sheets++;
-    }
-    return true;
-}
-
 static bool add_solids(const convert_arguments *arguments, const model *m, conversion *c)
 {
     solids_wish wish = arguments->solids;
@@ -140,32 +126,10 @@ static bool add_solids(const convert_arguments *arguments, const model *m, conve
     return solids_find(m, &wish, &c->scene, &c->solids);
 }
 
-static double surface_of(const model *m)
-{
-    double sum = 0;
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        double e[2][3], square = 0;
-        for (int n = 0; n < 2; n++)
-            for (int k = 0; k < 3; k++)
-                e[n][k] = (double)m->positions[m->corners[t][n + 1]][k] -
-                          (double)m->positions[m->corners[t][0]][k];
-        for (int k = 0; k < 3; k++) {
-            double n =
-                e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
-            square += n * n;
-        }
-        sum += sqrt(square) / 2;
-    }
-    return sum;
-}
-
 static void print_report(const model *m, const convert_arguments *arguments, const conversion *c)
 {
-    double surface = surface_of(m), area = 0;
     const solids_report *solids = &c->solids;
-    for (uint32_t i = 0; i < c->kept_sheets; i++)
-        area += c->sheets.at[i].area;
-    double share = surface > 0 ? 100 * area / surface : 0;
+    const walls_report *walls = &c->walls;
     printf(
         "model   %u triangles, %u vertices, %c is up; %u see-through, %u faces skipped that are\n"
         "        points or lines\n",
@@ -176,8 +140,8 @@ static void print_report(const model *m, const convert_arguments *arguments, con
     printf("path    %u frames, %s of %g units, %g from the nearest triangle, near %g, far %g\n",
            c->scene.frame_count, c->path.kind, c->path.length, c->path.clearance, c->path.near_z,
            c->path.far_z);
-    printf("sheets  %u from %u coplanar pairs of triangles, %.1f %% of the surface\n",
-           c->kept_sheets, c->sheets.coplanar_pairs, share);
+    printf("sheets  %u of %u found in %u planes; all cover %.1f %% of the opaque surface\n",
+           walls->sheets, walls->found, walls->planes, 100 * walls->share);
     printf("inner   %u boxes, %u of them proven without tolerance; %.1f %% of the silhouette%s\n",
            solids->boxes, solids->closed, 100 * solids->coverage,
            strcmp(c->path.kind, "orbit") != 0 ? "s of its layers" : "");
@@ -188,7 +152,7 @@ static void print_report(const model *m, const convert_arguments *arguments, con
         printf("        and %u of meshes in several places, there %u\n", solids->of_meshes,
                solids->carried);
     printf("triangles=%u objects=%u sheets=%u sheet_area_pct=%.2f inner=%u frames=%u path=%s\n",
-           m->triangle_count, c->scene.object_count, c->kept_sheets, share,
+           m->triangle_count, c->scene.object_count, walls->sheets, 100 * walls->share,
            solids->boxes + solids->carried, c->scene.frame_count, c->path.kind);
 }
 
@@ -198,7 +162,8 @@ static bool make_scene(const convert_arguments *arguments, const model *m, conve
     if (!add_objects(&c->objects, &c->scene)) return false;
     if (!path_make(m, arguments->frames, arguments->eye_height, &c->scene, &c->path))
         return library_out_of_memory();
-    return add_sheets(arguments, m, c) && add_solids(arguments, m, c);
+    return walls_find(m, &c->objects, &arguments->walls, &c->scene, &c->walls) &&
+           add_solids(arguments, m, c);
 }
 
 static bool convert_model(const convert_arguments *arguments, const model *m)
@@ -209,7 +174,6 @@ static bool convert_model(const convert_arguments *arguments, const model *m)
                 obs_write(arguments->out, &c.scene);
     if (good) print_report(m, arguments, &c);
     obs_free(&c.scene);
-    sheets_free(&c.sheets);
     division_free(&c.objects);
     return good;
 }
