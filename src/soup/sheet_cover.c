@@ -57,6 +57,16 @@ static void region_of_triangle(const occ_cover *c, uint32_t triangle, occ_region
     memcpy(out->at[2], held, sizeof held);
 }
 
+void occ_cover_init(occ_cover *cover, occ_hooks *hooks, const occ_surface *surface,
+                    const bool *used)
+{
+    *cover = (occ_cover){.hooks = hooks,
+                         .surface = surface,
+                         .used = used,
+                         .whole = OCC_ARRAY(uint32_t),
+                         .pieces = OCC_ARRAY(occ_cover_piece)};
+}
+
 occ_result occ_cover_start(occ_cover *cover, const occ_sheet_plane *plane)
 {
     cover->plane = plane;
@@ -64,12 +74,12 @@ occ_result occ_cover_start(occ_cover *cover, const occ_sheet_plane *plane)
     cover->area = 0.0;
     uint32_t *at = occ_array_extend(cover->hooks, &cover->whole, plane->count);
     if (!at) return OCC_ERROR_OUT_OF_MEMORY;
-    memcpy(at, cover->surface->triangle + plane->first, plane->count * sizeof *at);
-    cover->whole.count = plane->count;
     for (uint32_t i = 0; i < plane->count; i++) {
         occ_region r;
-        region_of_triangle(cover, at[i], &r);
+        uint32_t t = cover->surface->triangle[plane->first + i];
+        region_of_triangle(cover, t, &r);
         cover->area += occ_region_area(&r);
+        if (!cover->used[t]) at[cover->whole.count++] = t;
     }
     cover->floor = cover->area * 1e-7;
     return OCC_SUCCESS;

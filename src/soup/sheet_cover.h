@@ -22,6 +22,7 @@ void occ_region_cut(occ_region *region, const double a[2], const double b[2]);
 typedef struct occ_cover {
     occ_hooks *hooks;
     const occ_surface *surface;
+    const bool *used; // triangles that count as covered from the start
     const occ_sheet_plane *plane;
     occ_array whole;  // uint32_t: triangles of which nothing is covered
     occ_array pieces; // of others
@@ -30,9 +31,6 @@ typedef struct occ_cover {
     uint64_t work;    // triangles and pieces that were looked at
 } occ_cover;
 
-#define OCC_COVER(hooks, surface)                                                                  \
-    ((occ_cover){hooks, surface, NULL, OCC_ARRAY(uint32_t), OCC_ARRAY(occ_cover_piece), 0, 0, 0})
-
 // A part of a triangle.
 typedef struct occ_cover_piece {
     occ_region region;
@@ -40,7 +38,10 @@ typedef struct occ_cover_piece {
     double area;
 } occ_cover_piece;
 
-// Nothing of the plane is covered.
+void occ_cover_init(occ_cover *cover, occ_hooks *hooks, const occ_surface *surface,
+                    const bool *used);
+
+// Nothing else of the plane is covered.
 occ_result occ_cover_start(occ_cover *cover, const occ_sheet_plane *plane);
 
 // The largest piece, or false if none is left.

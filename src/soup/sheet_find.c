@@ -3,6 +3,7 @@
 #include "soup/sheet_cover.h"
 #include "soup/sheet_desc.h"
 #include "soup/sheet_grow.h"
+#include "soup/sheet_patch.h"
 #include "soup/sheet_proof.h"
 #include "soup/tally.h"
 #include "soup/triangles.h"
@@ -18,6 +19,7 @@ typedef struct find_call {
     occ_cover cover;
     occ_grower grower;
     uint64_t work_before; // this plane
+    bool *used;           // triangles of patches
     occ_array local;      // occ_found_sheet: of the plane at hand
     occ_array found;      // occ_found_sheet
     occ_sheets_stats stats;
@@ -115,25 +117,11 @@ static occ_result make_sheets(find_call *call)
         occ_region region;
         if (!out) return OCC_ERROR_OUT_OF_MEMORY;
         result = make_sheet(call, &seed, out, &region);
-        if (!result) (void)occ_cover_gain(&call->cover, &region, true, &result);
+        if (result) break;
+        double gain = occ_cover_gain(&call->cover, &region, true, &result);
+        out->gain = (float)occ_least(1.0, gain / occ_region_area(&region));
     }
     return result;
-}
-
-// What is left becomes sheets as it is.
-static occ_result take_rest(find_call *call)
-{
-    const occ_cover_piece *pieces = call->cover.pieces.data;
-    const uint32_t *whole = call->cover.whole.data;
-    uint32_t count = call->cover.whole.count;
-    for (uint32_t i = 0; i < count + call->cover.pieces.count; i++) {
-        uint32_t triangle = i < count ? whole[i] : pieces[i - count].triangle;
-        if (i > count && triangle == pieces[i - count - 1].triangle) continue;
-        occ_found_sheet *out = occ_array_push(call->hooks, &call->local);
-        if (!out) return OCC_ERROR_OUT_OF_MEMORY;
-        sheet_of_triangle(call, triangle, out);
-    }
-    return OCC_SUCCESS;
 }
 
 static occ_result keep(find_call *call, const occ_found_sheet *sheet, double share)
@@ -145,6 +133,33 @@ static occ_result keep(find_call *call, const occ_found_sheet *sheet, double sha
     out->area = (float)area;
     out->gain = (float)(share * area);
     return OCC_SUCCESS;
+}
+
+// What is left becomes sheets as it is, and all are kept, with the share of each that it adds.
+static occ_result take_rest(find_call *call)
+{
+    const occ_cover_piece *pieces = call->cover.pieces.data;
+    const uint32_t *whole = call->cover.whole.data;
+    const occ_found_sheet *local = call->local.data;
+    occ_found_sheet one;
+    occ_region region;
+    occ_result result = OCC_SUCCESS;
+    for (uint32_t i = 0; !result && i < call->local.count; i++)
+        result = keep(call, &local[i], (double)local[i].gain);
+    for (uint32_t i = 0; !result && i < call->cover.whole.count; i++) {
+        sheet_of_triangle(call, whole[i], &one);
+        result = keep(call, &one, 1.0);
+    }
+    for (uint32_t i = 0, end; !result && i < call->cover.pieces.count; i = end) {
+        double left = 0.0;
+        for (end = i; end < call->cover.pieces.count && pieces[end].triangle == pieces[i].triangle;
+             end++)
+            left += pieces[end].area;
+        sheet_of_triangle(call, pieces[i].triangle, &one);
+        region_of_sheet(call->cover.plane, &one.sheet, &region);
+        result = keep(call, &one, occ_least(1.0, left / occ_region_area(&region)));
+    }
+    return result;
 }
 
 // The sheet with the most to gain. Gains only fall while others are kept, so that one whose gain
@@ -200,14 +215,9 @@ static occ_result cover_plane(find_call *call, const occ_sheet_plane *plane)
         result = occ_grower_start(&call->grower, plane);
         if (!result) result = make_sheets(call);
     }
-    bool rest = plane->count == 1 || is_too_much(call);
-    if (!result && rest) result = take_rest(call);
-    if (result || !call->local.count) return result;
-    if (call->local.count > 1 && !rest) return keep_by_gain(call);
-    const occ_found_sheet *local = call->local.data;
-    for (uint32_t i = 0; !result && i < call->local.count; i++)
-        result = keep(call, &local[i], 1.0);
-    return result;
+    if (result) return result;
+    if (plane->count == 1 || is_too_much(call)) return take_rest(call);
+    return call->local.count ? keep_by_gain(call) : OCC_SUCCESS;
 }
 
 // --- all planes ----------------------------------------------------------------------------------
@@ -216,7 +226,8 @@ static int by_gain(const void *a, const void *b)
 {
     const occ_found_sheet *p = a, *q = b;
     if (p->gain != q->gain) return p->gain > q->gain ? -1 : 1;
-    return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
+    if (p->triangle != q->triangle) return p->triangle < q->triangle ? -1 : 1;
+    return memcmp(&p->sheet, &q->sheet, sizeof p->sheet);
 }
 
 static occ_result cover_planes(find_call *call)
@@ -257,16 +268,55 @@ static void sum_up(find_call *call)
         call->stats.covered += (double)found[i].gain;
 }
 
+static occ_result find_patches(find_call *call)
+{
+    occ_result result =
+        occ_patches_find(call->hooks, &call->surface, call->desc, call->used, &call->found);
+    occ_found_sheet *found = call->found.data;
+    for (uint32_t i = 0; !result && i < call->found.count; i++)
+        found[i].area = found[i].gain = (float)sheet_area(&found[i].sheet);
+    return result;
+}
+
+static occ_result find_sheets(find_call *call)
+{
+    size_t count = call->surface.mesh.triangles;
+    if (!count) return OCC_SUCCESS;
+    call->used = occ_alloc(call->hooks, count * sizeof *call->used);
+    if (!call->used) return OCC_ERROR_OUT_OF_MEMORY;
+    memset(call->used, 0, count * sizeof *call->used);
+    occ_cover_init(&call->cover, call->hooks, &call->surface, call->used);
+    occ_grower_init(&call->grower, call->hooks, &call->surface, call->desc);
+    occ_result result = occ_soup_progress(&call->desc->work, call->hooks, 0.3);
+    if (!result) result = find_patches(call);
+    if (!result) result = cover_planes(call);
+    occ_grower_free(&call->grower);
+    occ_cover_free(&call->cover);
+    occ_free(call->hooks, call->used, count * sizeof *call->used);
+    return result;
+}
+
+// Larger gains first, and what is too small left out.
+static void sort_found(find_call *call)
+{
+    occ_found_sheet *found = call->found.data;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < call->found.count; i++)
+        if (found[i].area >= call->desc->min_area) found[kept++] = found[i];
+    call->found.count = kept;
+    if (kept) qsort(found, kept, sizeof *found, by_gain);
+}
+
 static occ_result search(find_call *call, const occ_soup *soup)
 {
     occ_result result = occ_surface_build(call->hooks, soup, call->desc, &call->surface);
-    if (!result) result = cover_planes(call);
+    if (result) return result; // it was logged
+    result = find_sheets(call);
     if (result == OCC_ERROR_OUT_OF_MEMORY)
         return occ_fail(call->hooks, result, "no memory for the sheets of %u triangles",
                         (unsigned)soup->triangle_count);
     if (result) return result;
-    if (call->found.count)
-        qsort(call->found.data, call->found.count, sizeof(occ_found_sheet), by_gain);
+    sort_found(call);
     sum_up(call);
     return occ_soup_progress(&call->desc->work, call->hooks, 1.0);
 }
@@ -281,8 +331,6 @@ static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_sheets_
                       .desc = desc,
                       .local = OCC_ARRAY(occ_found_sheet),
                       .found = OCC_ARRAY(occ_found_sheet)};
-    call.cover = OCC_COVER(hooks, &call.surface);
-    occ_grower_init(&call.grower, hooks, &call.surface, desc);
     occ_result result = search(&call, soup);
     if (!result) {
         *count = call.found.count < capacity ? call.found.count : capacity;
@@ -290,8 +338,6 @@ static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_sheets_
     }
     occ_array_free(hooks, &call.found);
     occ_array_free(hooks, &call.local);
-    occ_grower_free(&call.grower);
-    occ_cover_free(&call.cover);
     occ_surface_free(hooks, &call.surface);
     if (stats && !result) {
         call.stats.counts = stats->counts;
