@@ -51,10 +51,10 @@ static const char convert_usage[] =
     "                       written)\n"
     "  --see-through LIST   patterns of materials or meshes that light passes, with commas\n"
     "                       between (such as glass*,water): these never occlude\n"
-    "  --sheets K           at most so many sheets, those that cover most first (default: all)\n"
+    "  --sheets K           at most so many sheets, those that cover most first (default 8192)\n"
     "  --min-sheet A        leave out sheets of an area below A (default 0)\n"
     "  --one-sided          triangles are drawn from where they go counterclockwise only\n"
-    "  --inner K            at most so many inner boxes of the model as a whole (default 256)\n"
+    "  --inner K            at most so many inner boxes of the model as a whole (default 128)\n"
     "  --inner-mesh K       and of each mesh that stands in several places (default 8)\n"
     "  --coverage C         enough of the silhouette for inner boxes, 0 to 1 (default: all)\n"
     "  --max-hole H         openings up to this width count as closed (default 0: none does)\n"
@@ -80,9 +80,9 @@ static const char *complete_arguments(convert_arguments *arguments)
 static int parse_convert(int argc, char **argv, convert_arguments *arguments)
 {
     *arguments = (convert_arguments){.division = division_defaults(),
-                                     .solids = {.most = 256, .most_placed = 8},
+                                     .solids = {.most = 128, .most_placed = 8},
                                      .frames = 60,
-                                     .walls = {.most = UINT32_MAX}};
+                                     .walls = {.most = 8192}};
     division_options *dividing = &arguments->division;
     solids_wish *solids = &arguments->solids;
     const options_entry entries[] = {{"--out", OPTIONS_TEXT, &arguments->out},
