@@ -142,6 +142,7 @@ static void join_only_pairs(joining *j, const occ_edge_use *use, uint32_t count)
             mates[a]++;
             mates[b]++;
             last[a] = b;
+            last[b] = a;
         }
     for (uint32_t a = 0; a < count; a++)
         if (mates[a] == 1 && mates[last[a]] == 1)
