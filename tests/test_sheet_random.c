@@ -5,15 +5,19 @@
 #include "support.h"
 
 #include <gmp.h>
-#include <stdio.h>
 
 START_TEST(every_sheet_of_random_soups_blocks_what_it_says)
 {
     sheet_report report = {0};
     sheet_rounds_run(2026, 600, &report);
-    printf("soups %u sheets %u merged %u bent %u forged %u passed %u sights %lu\n", report.soups,
-           report.sheets, report.merged, report.bent, report.forged, report.passed,
-           (unsigned long)report.sights);
+    // What the random choice must not lack.
+    ck_assert_uint_eq(report.soups, 600);
+    ck_assert_uint_ge(report.sheets, 6000);
+    ck_assert_uint_ge(report.merged, 3000);
+    ck_assert_uint_ge(report.bent, 800);
+    ck_assert_uint_ge(report.forged, 3000);
+    ck_assert_uint_ge(report.passed, 60);
+    ck_assert_uint_ge(report.sights, 30000);
 }
 END_TEST
 

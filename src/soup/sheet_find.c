@@ -36,8 +36,8 @@ static uint64_t work_of(const find_call *call)
 // Work is bounded by the number of triangles: beyond that they become sheets as they are.
 static bool is_too_much(const find_call *call)
 {
-    return work_of(call) - call->work_before >
-           (1u << 20) + 2000 * (uint64_t)call->cover.plane->count;
+    uint64_t most = (1u << 22) + 200 * (uint64_t)call->cover.plane->count;
+    return work_of(call) - call->work_before > most;
 }
 
 // --- one plane -----------------------------------------------------------------------------------

@@ -116,7 +116,7 @@ static double reach_into(const occ_region *r, double a[2], double b[2])
     double depth = INFINITY;
     for (uint32_t i = 0; i < r->count; i++) {
         const double *p = r->at[i], *q = r->at[(i + 1) % r->count];
-        double e[2] = {q[0] - p[0], q[1] - p[1]}, length = hypot(e[0], e[1]);
+        double e[2] = {q[0] - p[0], q[1] - p[1]}, length = sqrt(e[0] * e[0] + e[1] * e[1]);
         double m[2] = {0.5 * (a[0] + b[0]) - p[0], 0.5 * (a[1] + b[1]) - p[1]};
         if (length > 0.0) depth = occ_least(depth, (e[0] * m[1] - e[1] * m[0]) / length);
     }
@@ -141,9 +141,24 @@ typedef struct obstacle {
     double a[2], b[2];
 } obstacle;
 
+// Whether a rim is beside the bounds of a region.
+static bool is_apart(const obstacle *o, const double low[2], const double high[2])
+{
+    for (int k = 0; k < 2; k++)
+        if ((o->a[k] <= low[k] && o->b[k] <= low[k]) || (o->a[k] >= high[k] && o->b[k] >= high[k]))
+            return true;
+    return false;
+}
+
 static bool nearest_obstacle(occ_grower *g, const occ_region *r, const double middle[2],
                              obstacle *out)
 {
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < r->count; i++)
+        for (int k = 0; k < 2; k++) {
+            low[k] = occ_least(low[k], r->at[i][k]);
+            high[k] = occ_most(high[k], r->at[i][k]);
+        }
     const occ_sheet_rim *rim = (const occ_sheet_rim *)g->surface->rims.data + g->plane->first_rim;
     double least = INFINITY;
     g->work += g->plane->rims;
@@ -157,6 +172,8 @@ static bool nearest_obstacle(occ_grower *g, const occ_region *r, const double mi
             o.from[k] = o.a[k] = (double)p[k];
             o.to[k] = o.b[k] = (double)q[k];
         }
+        if (is_apart(&o, low, high)) continue;
+        g->work += r->count;
         if (!(reach_into(r, o.a, o.b) > g->tolerance)) continue;
         double distance = squared_distance(middle, o.a, o.b, nearest);
         if (distance >= least) continue;

@@ -43,14 +43,12 @@ typedef struct polygon {
     float min[2], max[2];
 } polygon;
 
-static bool is_in_plane(const occ_surface *s, const occ_sheet_plane *plane, const occ_sheet *sheet)
+static bool is_in_plane(const occ_surface *s, const occ_sheet_plane *plane, const float *point)
 {
     const float *p[3];
     for (int c = 0; c < 3; c++)
         p[c] = occ_mesh_corner(&s->mesh, s->triangle[plane->first], c);
-    for (uint32_t i = 0; i < sheet->corner_count; i++)
-        if (occ_side_of_plane(p[0], p[1], p[2], sheet->corner[i])) return false;
-    return true;
+    return occ_side_of_plane(p[0], p[1], p[2], point) == 0;
 }
 
 // Lays a sheet's corners out. Of corners that go clockwise the order is turned round.
@@ -124,13 +122,47 @@ static bool meets_rim(const polygon *p, const float (*at)[2])
     return !is_beside(p, at[0], at[1], 1) && !is_beside(p, at[0], at[1], -1) && !parts(p, at, 2);
 }
 
-static bool meets_triangle(const polygon *p, const float (*at)[2])
+static bool meets_triangle(const polygon *p, const float (*at)[2], int sense)
 {
     if (bounds_apart(p, at, 3)) return false;
-    int sense = occ_turn(at[0], at[1], at[2]);
     for (int i = 0; i < 3; i++)
         if (is_beside(p, at[i], at[(i + 1) % 3], sense)) return false;
     return !parts(p, at, 3);
+}
+
+static bool meets_rims(const occ_surface *s, const occ_sheet_plane *plane, const polygon *p,
+                       uint32_t *beside)
+{
+    const occ_sheet_rim *rim = (const occ_sheet_rim *)s->rims.data + plane->first_rim;
+    for (uint32_t i = 0; i < plane->rims; i++) {
+        float at[2][2];
+        occ_sheet_flatten(plane, s->mesh.at[rim[i].from], at[0]);
+        occ_sheet_flatten(plane, s->mesh.at[rim[i].to], at[1]);
+        if (!meets_rim(p, (const float(*)[2])at)) continue;
+        *beside = s->mesh.source[rim[i].triangle];
+        return true;
+    }
+    return false;
+}
+
+// Whether there is a triangle within the polygon, and all that are there are in the plane and, of
+// one-sided ones, turn their front to where that of the plane is.
+static bool finds_triangles(const occ_surface *s, const occ_sheets_desc *desc,
+                            const occ_sheet_plane *plane, const polygon *p, occ_sheet_basis *basis)
+{
+    for (uint32_t i = 0; i < plane->count; i++) {
+        uint32_t t = s->triangle[plane->first + i];
+        float at[3][2];
+        for (int c = 0; c < 3; c++)
+            occ_sheet_flatten(plane, occ_mesh_corner(&s->mesh, t, c), at[c]);
+        int sense = occ_turn(at[0], at[1], at[2]);
+        if (!meets_triangle(p, (const float(*)[2])at, sense)) continue;
+        if (sense < 0 && desc->sides == OCC_SIDES_FRONT) return false;
+        for (int c = 0; c < 3; c++)
+            if (!is_in_plane(s, plane, occ_mesh_corner(&s->mesh, t, c))) return false;
+        add_to_basis(s, desc, t, basis);
+    }
+    return basis->count > 0;
 }
 
 occ_sheet_reason occ_prove_in_plane(const occ_surface *s, const occ_sheets_desc *desc,
@@ -139,27 +171,14 @@ occ_sheet_reason occ_prove_in_plane(const occ_surface *s, const occ_sheets_desc 
 {
     polygon p;
     bool turned;
-    float at[3][2];
     *basis = (occ_sheet_basis){.triangle = UINT32_MAX};
-    if (!is_in_plane(s, plane, sheet)) return OCC_SHEET_OPEN;
+    for (uint32_t i = 0; i < sheet->corner_count; i++)
+        if (!is_in_plane(s, plane, sheet->corner[i])) return OCC_SHEET_OPEN;
     occ_sheet_reason reason = lay_out(plane, sheet, &turned, &p);
     if (reason) return reason;
     if (turned && desc->sides == OCC_SIDES_FRONT) return OCC_SHEET_OPEN; // nothing is drawn there
-    const occ_sheet_rim *rim = (const occ_sheet_rim *)s->rims.data + plane->first_rim;
-    for (uint32_t i = 0; i < plane->rims; i++) {
-        occ_sheet_flatten(plane, s->mesh.at[rim[i].from], at[0]);
-        occ_sheet_flatten(plane, s->mesh.at[rim[i].to], at[1]);
-        if (!meets_rim(&p, (const float(*)[2])at)) continue;
-        *beside = s->mesh.source[rim[i].triangle];
-        return OCC_SHEET_OPEN;
-    }
-    for (uint32_t i = 0; i < plane->count; i++) {
-        uint32_t t = s->triangle[plane->first + i];
-        for (int c = 0; c < 3; c++)
-            occ_sheet_flatten(plane, occ_mesh_corner(&s->mesh, t, c), at[c]);
-        if (meets_triangle(&p, (const float(*)[2])at)) add_to_basis(s, desc, t, basis);
-    }
-    return basis->count ? OCC_SHEET_SOUND : OCC_SHEET_OPEN;
+    if (meets_rims(s, plane, &p, beside)) return OCC_SHEET_OPEN;
+    return finds_triangles(s, desc, plane, &p, basis) ? OCC_SHEET_SOUND : OCC_SHEET_OPEN;
 }
 
 // --- by corners ----------------------------------------------------------------------------------

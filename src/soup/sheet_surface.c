@@ -365,4 +365,5 @@ void occ_surface_free(occ_hooks *hooks, occ_surface *surface)
     occ_free(hooks, surface->plane_of, n * sizeof *surface->plane_of);
     occ_edges_free(hooks, &surface->edges);
     occ_mesh_free(hooks, &surface->mesh);
+    *surface = (occ_surface){0};
 }
