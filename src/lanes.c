@@ -17,5 +17,11 @@
 #define OCC_LANES_TABLE  OCC_PASTE(occ_lanes_, OCC_LANES_NAME)
 
 extern const occ_lanes OCC_LANES_TABLE;
-const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME), project, hide, gather,
-                                   select_occluders,         cut,     test};
+const occ_lanes OCC_LANES_TABLE = {OCC_TEXT(OCC_LANES_NAME),
+                                   OCC_SHADE(OCC_LANES_NAME),
+                                   project,
+                                   hide,
+                                   gather,
+                                   select_occluders,
+                                   cut,
+                                   test};

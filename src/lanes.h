@@ -8,6 +8,7 @@
 #include "boxes.h"
 #include "octree.h"
 #include "screen.h"
+#include "shadow.h"
 #include "verdict.h"
 
 #define OCC_NODE_LANES   8u
@@ -66,6 +67,7 @@ typedef struct occ_candidates {
 // over the area of an orthographic view, is `least` or more.
 typedef struct occ_selection {
     const occ_eye *eye;
+    const occ_screen *screen;
     float toward[3]; // orthographic: the direction to the viewer
     float scale;     // orthographic: 1 over the edge of a square as large as the view
     float least;
@@ -78,6 +80,7 @@ typedef struct occ_question {
     occ_projection *seen; // filled in as far as need be
     uint32_t frustum;     // planes that may cut it
     uint32_t first, rows; // what objects [first, first + rows) own cannot hide it
+    uint32_t asked;       // how many occluders are known not to hide it, if they are asked alone
     float key;            // occluders that are farther do not matter
     bool fuse;            // whether occluders may hide it together
     bool upright;         // the box is axis-aligned, with its axes in order
@@ -86,6 +89,9 @@ typedef struct occ_question {
 
 typedef struct occ_lanes {
     const char *name;
+
+    // Makes the shadow volume of an occluder (shadow.h).
+    occ_shade *shade;
 
     // Where a box is on the screen.
     void (*project)(const occ_screen *screen, const occ_relative_box *box, occ_projection *seen);
@@ -99,10 +105,10 @@ typedef struct occ_lanes {
     bool (*gather)(const occ_question *question, const occ_shadow_set *set, uint32_t *list,
                    uint32_t *count);
 
-    // Of at most OCC_SHADOW_LANES occluders: which of them are worth looking at and not outside of
-    // the frustum's planes, and how near each is.
+    // Of at most OCC_SHADOW_LANES occluders: which of them are worth looking at, not outside of the
+    // frustum's planes and not hidden by one of the occluders so far, and how near each is.
     uint32_t (*select)(const occ_box *boxes, uint32_t count, const occ_selection *choice,
-                       uint32_t planes, float *key);
+                       uint32_t planes, const occ_shadow_set *set, float *key);
 
     // Decides siblings against the frustum.
     void (*cut)(occ_siblings *siblings, const occ_eye *eye);

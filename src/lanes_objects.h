@@ -258,13 +258,14 @@ static inline void centers_on_screen(center_lanes *centers, const object_lanes *
     }
 }
 
-// The objects whose center may be in the shadow of candidate c.
-static inline uint32_t centers_near(const center_lanes *centers, const rect_list *list, uint32_t c)
+// The objects whose center may be in the shadow of occluder i of those.
+static inline uint32_t centers_near(const center_lanes *centers, const rect_lanes *rects,
+                                    uint32_t i)
 {
-    const fwide least[4] = {splat_wide(list->left[c]), centers->at[0], splat_wide(list->low[c]),
+    const fwide least[4] = {splat_wide(rects->left[i]), centers->at[0], splat_wide(rects->low[i]),
                             centers->at[1]};
-    const fwide most[4] = {centers->at[0], splat_wide(list->right[c]), centers->at[1],
-                           splat_wide(list->high[c])};
+    const fwide most[4] = {centers->at[0], splat_wide(rects->right[i]), centers->at[1],
+                           splat_wide(rects->high[i])};
     return none_above_wide(least, most);
 }
 
@@ -297,9 +298,9 @@ static inline void test_candidates(known_lanes *known, const object_lanes *lanes
         rect_lanes rects = rects_of_list(&common->list, i);
         uint32_t near = near_box(&rects, &centers.bounds);
         for (near = present(near, common->list.count - i); near; near &= near - 1u) {
-            uint32_t c = i + (uint32_t)__builtin_ctz(near);
-            uint32_t at = centers_near(&centers, &common->list, c) & known->open;
-            if (at) test_candidate(known, lanes, row, candidates, c, at);
+            uint32_t c = (uint32_t)__builtin_ctz(near);
+            uint32_t at = centers_near(&centers, &rects, c) & known->open;
+            if (at) test_candidate(known, lanes, row, candidates, i + c, at);
         }
     }
     for (uint32_t c = common->list.count; c < candidates->count && known->open; c++)

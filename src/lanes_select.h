@@ -64,8 +64,27 @@ static inline fwide nearness_of(const object_lanes *o, const occ_selection *choi
     return sum;
 }
 
+// Those of `open` that no occluder so far hides alone.
+static inline uint32_t not_hidden(const object_lanes *o, uint32_t open, const occ_shadow_set *set,
+                                  const occ_screen *screen)
+{
+    center_lanes centers;
+    centers_on_screen(&centers, o, screen, open);
+    for (uint32_t i = 0; i < set->count && open; i += OCC_SHADOW_LANES) {
+        rect_lanes rects = rects_of_block(&set->rects[i / OCC_SHADOW_LANES]);
+        uint32_t near = present(near_box(&rects, &centers.bounds), set->count - i);
+        for (; near; near &= near - 1u) {
+            uint32_t s = (uint32_t)__builtin_ctz(near);
+            uint32_t at = centers_near(&centers, &rects, s) & open;
+            at = centers_inside(o, &set->shadows[i + s], at);
+            if (at) open &= ~inside_shadow(o, &set->shadows[i + s], at);
+        }
+    }
+    return open;
+}
+
 static uint32_t select_occluders(const occ_box *boxes, uint32_t count, const occ_selection *choice,
-                                 uint32_t planes, float *key)
+                                 uint32_t planes, const occ_shadow_set *set, float *key)
 {
     uint32_t chosen = 0;
     for (uint32_t i = 0; i < count; i += OCC_WIDTH) {
@@ -74,9 +93,12 @@ static uint32_t select_occluders(const occ_box *boxes, uint32_t count, const occ
         fwide near = nearness_of(&lanes, choice);
         memcpy(key + i, &near, sizeof near);
         uint32_t outside = outside_frustum(&lanes, choice->eye, planes);
-        chosen |= (large_enough(&lanes, choice) & ~outside & ALL_WIDE) << i;
+        uint32_t open = large_enough(&lanes, choice) & ~outside & ALL_WIDE;
+        open = present(open, count - i);
+        if (open && set->count) open = not_hidden(&lanes, open, set, choice->screen);
+        chosen |= open << i;
     }
-    return present(chosen, count);
+    return chosen;
 }
 
 #endif

@@ -23,7 +23,8 @@ static inline bool is_own(const occ_question *question, const occ_shadow_set *se
 static inline bool ask_center(const occ_question *question, const occ_shadow_set *set, bool *held)
 {
     const float *t = question->box->t;
-    for (uint32_t first = 0; first < set->count; first += NEAR_BITS) {
+    uint32_t first = question->asked / OCC_SHADOW_LANES * OCC_SHADOW_LANES;
+    for (; first < set->count; first += NEAR_BITS) {
         uint64_t near = near_in_blocks(set, first, question->seen->u[8], question->seen->v[8]);
         for (; near; near &= near - 1u) {
             uint32_t i = first + (uint32_t)__builtin_ctzll(near);

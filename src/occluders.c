@@ -17,7 +17,8 @@ void occ_occluders_prepare(occ_frame *frame)
 {
     const occ_camera *camera = &frame->camera;
     occ_selection *choice = &frame->selection;
-    *choice = (occ_selection){.eye = &camera->constants, .orthographic = camera->orthographic};
+    *choice = (occ_selection){
+        .eye = &camera->constants, .screen = &camera->screen, .orthographic = camera->orthographic};
     choice->least = frame->knobs.min_area;
     choice->scale = 1.0f;
     for (int j = 0; j < 3; j++)
@@ -57,9 +58,9 @@ bool occ_occluder_sheet_is_large(const occ_frame *frame, const occ_sheet *sheet)
 }
 
 // How far outside of its bounds on the screen an occluder's shadow may reach. Projections round by
-// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by less
-// than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) / (w +
-// dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
+// less than 2^-13; a tolerance turns the shadow's planes outward (shadow.c), its corners by
+// less than that angle t. A direction of length 1 that is turned by t moves u = x / w to (x + dx) /
+// (w + dw), with |dx| <= t |row 0| and |dw| <= t |row 2|; w is least at a corner of the occluder.
 static float room_around(const occ_camera *camera, const occ_projection *seen, int j)
 {
     const occ_screen *screen = &camera->screen;
@@ -100,7 +101,7 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     const occ_box *box = &occ_scene_occluder_boxes(scene)[row];
     const occ_sheet *sheet = occ_scene_sheet(scene, row);
     bool hides = sheet ? occ_shadow_of_sheet(shadow, &frame->camera, sheet, owner)
-                       : occ_shadow_init(shadow, &frame->camera, box, owner);
+                       : frame->lanes->shade(shadow, &frame->camera, box, owner);
     if (!hides) return OCC_SUCCESS;
     occ_wide_shadow_set(wide, shadow);
     *source = (occ_occluder){slot + 1, scene->occluders.generation[slot]};

@@ -14,7 +14,8 @@
 typedef struct occ_walk_entry {
     float key;      // how near it is; nothing below a node is nearer
     uint32_t index; // of the node, or row of the occluder
-    uint32_t what;  // OCC_WALK_*, and the frustum planes that may cut it
+    uint32_t what;  // OCC_WALK_*; and the frustum planes that may cut the node, or how many
+                    // occluders are known not to hide the occluder
     uint32_t next;  // behind it in its bucket, or OCC_QUEUE_END
 } occ_walk_entry;
 
@@ -22,6 +23,7 @@ typedef struct occ_walk_entry {
 #define OCC_WALK_FREE     0x40000000u // a node of the occluders that nobody owns
 #define OCC_WALK_OCCLUDER 0x80000000u
 #define OCC_WALK_PLANES   0x0000ffffu
+#define OCC_WALK_ASKED    0x3fffffffu
 
 #define OCC_QUEUE_END     0xffffffffu
 #define OCC_QUEUE_STEPS   16u // buckets to an octave

@@ -6,8 +6,6 @@
 #include "log.h"
 #include "sheet.h"
 
-#include <string.h>
-
 static const char *check_rows(const occ_scene *scene)
 {
     uint32_t count = scene->boxes.count;
@@ -32,6 +30,17 @@ static const char *check_rows(const occ_scene *scene)
 
 // --- occluders -----------------------------------------------------------------------------------
 
+static bool same_box(const occ_box *a, const occ_box *b)
+{
+    bool same = true;
+    for (int j = 0; j < 3; j++) {
+        same = same && a->center[j] == b->center[j];
+        for (int k = 0; k < 3; k++)
+            same = same && a->axis[k][j] == b->axis[k][j];
+    }
+    return same;
+}
+
 // Of a sheet that its entry is sound and its row has its proxy; of a box that it is sound.
 static const char *check_kind(const occ_scene *scene, uint32_t row)
 {
@@ -46,12 +55,11 @@ static const char *check_kind(const occ_scene *scene, uint32_t row)
     const occ_sheet_entry *entry = occ_sheets_at(&scene->sheets, index);
     if (entry->slot != rows->slot_of[row]) return "a sheet's entry is its own";
     if (occ_sheet_check(&entry->sheet, &reason)) return "a sheet is sound";
-    const occ_sheet plain = occ_sheet_plain(&entry->sheet);
-    if (memcmp(&plain, &entry->sheet, sizeof plain))
-        return "a sheet is zero where it has no corners";
+    for (uint32_t i = entry->sheet.corner_count; i < OCC_SHEET_CORNERS; i++)
+        for (int j = 0; j < 3; j++)
+            if (entry->sheet.corner[i][j] != 0.0f) return "a sheet is zero where it has no corners";
     const occ_box proxy = occ_sheet_proxy(&entry->sheet);
-    bool same = !memcmp(&proxy, &rows->boxes[row], sizeof proxy);
-    return same ? NULL : "a sheet's row has its proxy";
+    return same_box(&proxy, &rows->boxes[row]) ? NULL : "a sheet's row has its proxy";
 }
 
 static const char *check_occluder(const occ_scene *scene, uint32_t row)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Compiled several times, each time with OCC_LANES_NAME set to the name of an instruction set.
+//
 // Shadow volumes of boxes (Crow, Shadow Algorithms for Computer Graphics, SIGGRAPH 1977): the
 // planes through the eye and the silhouette edges, and the planes of the faces that the eye sees.
 //
@@ -8,167 +10,226 @@
 // whether that is convex or not. A point in it and behind all planes of V is behind a point of some
 // face of V. So a face that is doubtful may be left out, and V = the certain faces is sound even
 // where it is not the full silhouette. Set-up is in double; what it rounds is moved inward.
+//
+// Four numbers at once: of the three pairs of faces and a fourth that means nothing, or of the four
+// edges along one axis. Edge l is where the next axis has the sign of l & 1, and the one after that
+// the sign of l & 2.
 #include "shadow.h"
 
-#include "rounding.h"
+#include "quad.h"
 #include "vector.h"
 
+#include <occlude/scene.h>
+
+#ifndef OCC_LANES_NAME
+#define OCC_LANES_NAME plain
+#endif
 #define EPS 0x1p-53
 
-// An occluder relative to the eye.
+static const quad sign_next = {-1.0, 1.0, -1.0, 1.0}, sign_after = {-1.0, -1.0, 1.0, 1.0};
+
+// Of every pair of faces, what belongs to its neighbours: pair k + 1, pair k + 2.
+static inline quad next_pair(quad x)
+{
+    return OCC_SHUFFLE(quad_truth, x, x, 1, 2, 0, 3);
+}
+
+static inline quad after_pair(quad x)
+{
+    return OCC_SHUFFLE(quad_truth, x, x, 2, 0, 1, 3);
+}
+
+// An occluder relative to the eye. Lane k speaks of axis k.
 typedef struct solid {
-    double center[3];
-    double axis[3][3];
-    double normal[3]
-                 [3]; // of the faces: normal[k] = axis[k+1] x axis[k+2]; each component within EPS
-    double size[3];   // |center_j| + sum |axis_j|: bounds every corner's coordinate; and the doubt
-                      // about the eye, which the center inherits
+    quad center[3]; // alike in all lanes
+    quad axis[3];
+    quad normal[3]; // of the faces: axis[k+1] x axis[k+2]; each component within EPS
+    quad size[3];   // alike in all lanes: |center_j| + sum |axis_j|: bounds every corner's
+                    // coordinate; and the doubt about the eye, which the center inherits
+    quad sign;      // the face center + sign * axis[k] is seen for certain; 0: neither
+    quad facing;    // an outward normal of it is facing * normal[k], facing = ±1
+    quad middle[3]; // of it
 } solid;
 
-// A face that the eye sees for certain: center + sign * axis[k].
-typedef struct face {
-    int sign;         // 0: not seen
-    double center[3]; // its middle
-    double facing;    // an outward normal is facing * normal[k], facing = ±1
-} face;
-
-static void set_solid(solid *s, const occ_camera *camera, const occ_box *box)
+static inline void set_solid(solid *s, const occ_camera *camera, const occ_box *box)
 {
     for (int j = 0; j < 3; j++) {
-        s->center[j] = (double)box->center[j] - camera->eye[j];
-        s->size[j] = fabs(s->center[j]) + camera->doubt[j];
-        for (int k = 0; k < 3; k++) {
-            s->axis[k][j] = (double)box->axis[k][j];
-            s->size[j] += fabs(s->axis[k][j]);
-        }
+        double a = (double)box->axis[0][j], b = (double)box->axis[1][j];
+        double c = (double)box->axis[2][j], center = (double)box->center[j] - camera->eye[j];
+        s->axis[j] = make_quad(a, b, c, c); // not 0: valgrind 3.19 lacks gcc's way to that
+        s->center[j] = splat_quad(center);
+        s->size[j] = splat_quad(fabs(center) + camera->doubt[j] + fabs(a) + fabs(b) + fabs(c));
     }
-    for (int k = 0; k < 3; k++)
-        occ_cross(s->axis[(k + 1) % 3], s->axis[(k + 2) % 3], s->normal[k]);
+    quad next[3], after[3];
+    for (int j = 0; j < 3; j++) {
+        next[j] = next_pair(s->axis[j]);
+        after[j] = after_pair(s->axis[j]);
+    }
+    cross_quad(next, after, s->normal);
 }
 
-// Decides whether the eye sees a face of pair k, and which. With the eye at 0 and G = n.c, the box
-// spans |n.x - G| <= D = |n.a_k|; the eye is in front of the nearer face if |G| > D.
-static void see_face(const solid *s, const occ_camera *camera, int k, double volume, face *f)
+// Decides whether the eye sees a face of each pair, and which. With the eye at 0 and G = n.c, the
+// box spans |n.x - G| <= D = |n.a_k|; the eye is in front of the nearer face if |G| > D. A box may
+// be so flat that the sign of its volume is in doubt. Either will do for all three pairs: what V
+// then shows of the box are the faces on its far side, which tile the same outline, and whose
+// planes the eye is in front of as well.
+static inline uint32_t see_faces(solid *s, const occ_camera *camera)
 {
-    const double *n = s->normal[k];
-    double side, margin, error;
+    quad depth = dot_quad(s->normal, s->axis), side, margin, error;
     if (camera->orthographic) {
-        side = -occ_dot(n, camera->toward);
-        margin = fabs(side);
-        error = 8.0 * EPS * occ_dot_magnitude(n, camera->toward);
+        quad toward[3];
+        for (int j = 0; j < 3; j++)
+            toward[j] = splat_quad(camera->toward[j]);
+        side = -dot_quad(s->normal, toward);
+        margin = abs_quad(side);
+        error = 8.0 * EPS * dot_magnitude_quad(s->normal, toward);
     } else {
-        side = occ_dot(n, s->center);
-        margin = fabs(side) - fabs(occ_dot(n, s->axis[k]));
-        error = 16.0 * EPS * occ_dot_magnitude(n, s->size);
+        side = dot_quad(s->normal, s->center);
+        margin = abs_quad(side) - abs_quad(depth);
+        error = 16.0 * EPS * dot_magnitude_quad(s->normal, s->size);
     }
-    f->sign = 0;
-    if (!(margin > error)) return;
+    quad_truth seen = above_quad(margin, error) & (quad_truth){-1, -1, -1, 0};
     // Towards the eye is against `side`. Which of the two faces lies there depends on the sign of
     // the volume n.a_k.
-    f->facing = side > 0.0 ? -1.0 : 1.0;
-    f->sign = (volume < 0.0) != (side > 0.0) ? -1 : 1;
+    quad zero = splat_quad(0.0);
+    quad_truth ahead = above_quad(side, zero), turned = above_quad(zero, splat_quad(depth[0]));
+    s->facing = where_quad(ahead, splat_quad(-2.0)) + 1.0;
+    s->sign = where_quad(seen, where_quad(turned ^ ahead, splat_quad(-2.0)) + 1.0);
     for (int j = 0; j < 3; j++)
-        f->center[j] = s->center[j] + (double)f->sign * s->axis[k][j];
+        s->middle[j] = s->center[j] + s->sign * s->axis[j];
+    return bits_quad(seen);
 }
 
-// Fills in the faces of V and returns how many there are. A box may be so flat that the sign of its
-// volume is in doubt. Either will do for all three pairs: what V then shows of the box are the
-// faces on its far side, which tile the same outline, and whose planes the eye is in front of as
-// well.
-static int see_faces(const solid *s, const occ_camera *camera, face seen[3])
+// Up to four planes n.x + d > 0, where the components of n are off by at most `error` and d by at
+// most `d_error`.
+typedef struct plane_quad {
+    quad n[3], error, d, d_error;
+} plane_quad;
+
+// Makes floats of planes. Returns the lanes in which n is long enough for its error: in the others
+// its direction means nothing.
+static inline uint32_t finish_planes(const plane_quad *p, float out[4][4])
 {
-    double volume = occ_dot(s->normal[0], s->axis[0]);
-    int count = 0;
-    for (int k = 0; k < 3; k++) {
-        see_face(s, camera, k, volume, &seen[k]);
-        count += seen[k].sign != 0;
+    quad size = largest_quad(p->n);
+    quad_truth good = above_quad(size, splat_quad(1e-200)) & above_quad(splat_quad(1e200), size) &
+                      ~above_quad(p->error, size * 0x1p-26);
+    quad scale = unit_scale_quad(size);
+    quad_float column[4];
+    for (int j = 0; j < 3; j++)
+        column[j] = round_quad(p->n[j] * scale);
+    quad inward = (p->d - p->d_error) * scale;
+    column[3] = round_down_quad(inward - abs_quad(inward) * 0x1p-21);
+    turn_quad(column, out);
+    return bits_quad(good);
+}
+
+// The planes of the visible faces: behind them is inside.
+static inline void set_face_planes(plane_quad *p, const solid *s)
+{
+    for (int j = 0; j < 3; j++)
+        p->n[j] = -s->facing * s->normal[j];
+    p->error = EPS * largest_quad(p->n);
+    p->d = -dot_quad(p->n, s->middle);
+    p->d_error = 16.0 * EPS * dot_magnitude_quad(p->n, s->size);
+}
+
+// What the planes through the edges have in common. Lane k speaks of the edges along axis k.
+typedef struct rims {
+    quad through[3]; // ray x axis[k], the ray leading to the box's center
+    quad error;      // of the components of a plane
+} rims;
+
+static inline void set_rims(rims *r, const solid *s, const occ_camera *camera)
+{
+    quad ray[3], from[3], most = {0.0};
+    for (int j = 0; j < 3; j++) {
+        ray[j] = camera->orthographic ? splat_quad(-camera->toward[j]) : s->center[j];
+        from[j] = camera->orthographic ? abs_quad(ray[j]) : s->size[j];
     }
-    return count;
-}
-
-bool occ_shadow_add_plane(occ_shadow *shadow, const double n[3], double normal_error, double d,
-                          double d_error)
-{
-    double size = occ_largest(n);
-    if (!(size > 0.0) || !(size < 1e200) || normal_error > size * 0x1p-26) return false;
-    double scale = occ_unit_scale(size);
-    float *plane = shadow->plane[shadow->planes++];
-    for (int j = 0; j < 3; j++)
-        plane[j] = (float)(n[j] * scale);
-    double inward = (d - d_error) * scale;
-    plane[3] = occ_round_down(inward - fabs(inward) * 0x1p-21);
-    return true;
-}
-
-// The plane of a visible face: behind it is inside.
-static bool add_face(occ_shadow *shadow, const solid *s, const face *f, int k)
-{
-    double inward[3];
-    for (int j = 0; j < 3; j++)
-        inward[j] = -f->facing * s->normal[k][j];
-    double d = -occ_dot(inward, f->center);
-    double error = 16.0 * EPS * occ_dot_magnitude(inward, s->size);
-    return occ_shadow_add_plane(shadow, inward, EPS * occ_largest(inward), d, error);
-}
-
-// An edge of face k: where the face ends on the `side` of axis[across]; it runs along axis[along].
-typedef struct edge {
-    int k, side, across, along;
-} edge;
-
-double occ_cross_error(const double from[3], const double axis[3])
-{
-    double most = 0.0;
+    cross_quad(ray, s->axis, r->through);
     for (int j = 0; j < 3; j++) {
         int p = (j + 1) % 3, q = (j + 2) % 3;
-        most = occ_larger(most, from[p] * fabs(axis[q]) + from[q] * fabs(axis[p]));
+        most = larger_quad(most, from[p] * abs_quad(s->axis[q]) + from[q] * abs_quad(s->axis[p]));
     }
-    return 8.0 * EPS * most;
+    r->error = 8.0 * EPS * most;
 }
 
-// A silhouette edge's plane through the eye: n.x = 0, the face's middle inside.
-typedef struct rim {
-    double n[3], error; // of its components
-    double point[3];    // the edge's middle
-    double ray[3];      // towards it
-    uint32_t corners;   // bit c: the edge ends at corner c of the box
-} rim;
-
-static void set_rim(rim *r, const solid *s, const occ_camera *camera, const face *f, const edge *e)
+// The planes through the edges along axis k, the middle of a visible face inside. Returns the lanes
+// whose edge only one face of V has.
+static inline uint32_t set_rim_planes(plane_quad *p, const solid *s, const rims *r,
+                                      const occ_camera *camera, int k)
 {
-    double bound[3];
+    int next = (k + 1) % 3, after = (k + 2) % 3;
+    quad sign[2] = {splat_quad(s->sign[next]), splat_quad(s->sign[after])};
+    quad_truth in_next = above_quad(sign_next * sign[0], splat_quad(0.5)),
+               in_after = above_quad(sign_after * sign[1], splat_quad(0.5));
+    quad inward = where_quad(in_next, -sign_after * s->facing[next]) +
+                  where_quad(in_after, sign_next * s->facing[after]);
     for (int j = 0; j < 3; j++) {
-        r->point[j] = f->center[j] + (double)e->side * s->axis[e->across][j];
-        r->ray[j] = camera->orthographic ? -camera->toward[j] : r->point[j];
-        bound[j] = camera->orthographic ? fabs(r->ray[j]) : s->size[j];
+        quad n = splat_quad(r->through[j][k]);
+        if (!camera->orthographic) {
+            n -= sign_next * s->normal[j][after];
+            n += sign_after * s->normal[j][next];
+        }
+        p->n[j] = inward * n;
     }
-    occ_cross(r->ray, s->axis[e->along], r->n);
-    r->error = occ_cross_error(bound, s->axis[e->along]);
-    // With a and b for the two axes and m for the face's middle, (m + side a) x b . m is
-    // side (a x b) . m; a x b is ±normal[k], and see_face() knows the sign of normal[k] . m.
-    bool cyclic = e->across == (e->k + 1) % 3;
-    bool inward = (f->facing < 0.0) == (e->side > 0) ? cyclic : !cyclic;
-    for (int j = 0; j < 3; j++)
-        r->n[j] = inward ? r->n[j] : -r->n[j];
-    uint32_t end = (f->sign > 0 ? 1u << e->k : 0u) | (e->side > 0 ? 1u << e->across : 0u);
-    r->corners = 1u << end | 1u << (end | 1u << e->along);
+    p->error = splat_quad(r->error[k]);
+    p->d = splat_quad(0.0);
+    if (camera->orthographic) {
+        quad point[3];
+        for (int j = 0; j < 3; j++)
+            point[j] = s->center[j] + sign_next * s->axis[j][next] + sign_after * s->axis[j][after];
+        p->d = -dot_quad(p->n, point);
+        p->d_error =
+            16.0 * EPS * dot_magnitude_quad(p->n, s->size) + 3.0 * p->error * largest_quad(s->size);
+    } else {
+        quad doubt[3];
+        for (int j = 0; j < 3; j++)
+            doubt[j] = splat_quad(camera->doubt[j]);
+        p->d_error = 8.0 * EPS * dot_magnitude_quad(p->n, doubt);
+    }
+    return bits_quad(in_next ^ in_after);
 }
 
-// All silhouette edges of V: those whose other face is not in V. Returns how many.
-static int set_rims(rim rims[OCC_SHADOW_PLANES], const solid *s, const occ_camera *camera,
-                    const face seen[3])
+// Appends those of the planes that `lanes` names, of the first `count`. False if one of them means
+// nothing.
+static inline bool add_planes(occ_shadow *shadow, const plane_quad *p, uint32_t lanes,
+                              uint32_t count)
 {
-    int count = 0;
-    for (int k = 0; k < 3; k++) {
-        if (!seen[k].sign) continue;
-        for (int i = 0; i < 4; i++) {
-            int turn = 1 + i / 2, side = i % 2 ? -1 : 1;
-            edge e = {k, side, (k + turn) % 3, (k + 3 - turn) % 3};
-            if (seen[e.across].sign == side) continue;
-            set_rim(&rims[count++], s, camera, &seen[k], &e);
-        }
+    float plane[4][4];
+    uint32_t good = finish_planes(p, plane);
+    for (uint32_t l = 0; l < count; l++) {
+        memcpy(shadow->plane[shadow->planes], plane[l], sizeof plane[l]);
+        shadow->planes += lanes >> l & 1u;
     }
-    return count;
+    return !(lanes & ~good);
+}
+
+// --- the tolerance -------------------------------------------------------------------------------
+
+// A plane that turns about the eye.
+typedef struct turning {
+    uint32_t k, lane;
+    uint32_t corners; // bit c: its edge ends at corner c of the box
+    double unit[3], length, ray[3];
+} turning;
+
+static void set_turning(turning *t, const solid *s, const plane_quad *p, uint32_t k, uint32_t lane)
+{
+    uint32_t next = (k + 1) % 3, after = (k + 2) % 3;
+    double n[3];
+    for (int j = 0; j < 3; j++) {
+        n[j] = p->n[j][lane];
+        t->ray[j] = s->center[j][0] + sign_next[lane] * s->axis[j][next] +
+                    sign_after[lane] * s->axis[j][after];
+    }
+    t->length = sqrt(occ_dot(n, n));
+    for (int j = 0; j < 3; j++)
+        t->unit[j] = n[j] / t->length;
+    uint32_t end = (lane & 1u) << next | lane >> 1 << after;
+    t->k = k;
+    t->lane = lane;
+    t->corners = 1u << end | 1u << (end | 1u << k);
 }
 
 // Turns the planes outward about the eye, by t = tolerance / 2 in the middle of their edges: to the
@@ -177,81 +238,59 @@ static int set_rims(rim rims[OCC_SHADOW_PLANES], const solid *s, const occ_camer
 // n, as before. Where two planes meet at an angle a below 90 degrees their corner would move by t /
 // sin(a / 2), without bound; there t is made less, so that no corner moves by more than that of a
 // square. (With unit normals n and n', 1 + n.n' is 2 sin(a / 2)^2.)
-static void turn_outward(rim rims[OCC_SHADOW_PLANES], int count, double tolerance)
+static void turn_outward(plane_quad planes[3], const uint32_t lanes[3], const solid *s,
+                         double tolerance)
 {
-    double unit[OCC_SHADOW_PLANES][3], length[OCC_SHADOW_PLANES];
-    for (int i = 0; i < count; i++) {
-        length[i] = sqrt(occ_dot(rims[i].n, rims[i].n));
-        for (int j = 0; j < 3; j++)
-            unit[i][j] = rims[i].n[j] / length[i];
-    }
-    for (int i = 0; i < count; i++) {
+    turning all[12];
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t l = 0; l < 4; l++)
+            if (lanes[k] >> l & 1u) set_turning(&all[count++], s, &planes[k], k, l);
+    for (uint32_t i = 0; i < count; i++) {
+        turning *t = &all[i];
+        plane_quad *p = &planes[t->k];
         double limit = 1.0;
-        for (int k = 0; k < count; k++)
-            if (k != i && rims[i].corners & rims[k].corners)
-                limit = fmin(limit, sqrt(fmax(1.0 + occ_dot(unit[i], unit[k]), 0.0)));
+        for (uint32_t o = 0; o < count; o++)
+            if (o != i && t->corners & all[o].corners)
+                limit = fmin(limit, sqrt(fmax(1.0 + occ_dot(t->unit, all[o].unit), 0.0)));
         double by = 0.5 * tolerance * (1.0 - 0x1p-20) * limit;
-        double scale = by * length[i] / sqrt(occ_dot(rims[i].ray, rims[i].ray));
+        double scale = by * t->length / sqrt(occ_dot(t->ray, t->ray));
         for (int j = 0; j < 3; j++)
-            rims[i].n[j] += scale * rims[i].ray[j];
-        rims[i].error += 4.0 * EPS * length[i];
+            p->n[j][t->lane] += scale * t->ray[j];
+        p->error[t->lane] += 4.0 * EPS * t->length;
     }
 }
 
-static bool add_rim(occ_shadow *shadow, const solid *s, const occ_camera *camera, const rim *r)
-{
-    const double *n = r->n;
-    double d = 0.0, d_error = 0.0;
-    if (camera->orthographic) {
-        d = -occ_dot(n, r->point);
-        d_error =
-            16.0 * EPS * occ_dot_magnitude(n, s->size) + 3.0 * r->error * occ_largest(s->size);
-    } else {
-        d_error = 8.0 * EPS * occ_dot_magnitude(n, camera->doubt);
-    }
-    return occ_shadow_add_plane(shadow, n, r->error, d, d_error);
-}
-
-static bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera *camera,
-                            const face seen[3])
-{
-    rim rims[OCC_SHADOW_PLANES];
-    int count = set_rims(rims, s, camera, seen);
-    if (camera->tolerance > 0.0 && !camera->orthographic)
-        turn_outward(rims, count, camera->tolerance);
-    for (int i = 0; i < count; i++)
-        if (!add_rim(shadow, s, camera, &rims[i])) return false;
-    return true;
-}
+// --- the near plane ------------------------------------------------------------------------------
 
 // Whether all that the near plane cuts away is in front of a visible face.
-static bool cut_is_in_front(const solid *s, const occ_camera *camera, const face *f, int k)
+static bool cut_is_in_front(const solid *s, const occ_camera *camera, int k)
 {
     for (int c = 0; c < 4; c++) {
-        double offset[3], size[3];
+        double height = 0.0, size = 0.0;
         for (int j = 0; j < 3; j++) {
-            offset[j] = camera->near_corner[c][j] - f->center[j];
-            size[j] = fabs(camera->near_corner[c][j]) + s->size[j];
+            double offset = camera->near_corner[c][j] - s->middle[j][k];
+            height += s->normal[j][k] * offset;
+            size += fabs(s->normal[j][k]) * (fabs(camera->near_corner[c][j]) + s->size[j][k]);
         }
-        double height = f->facing * occ_dot(s->normal[k], offset);
-        if (!(height > occ_dot_magnitude(s->normal[k], size) * 1e-9)) return false;
+        if (!(s->facing[k] * height > size * 1e-9)) return false;
     }
     return true;
 }
 
 static bool is_beyond(const solid *s, const double *cutter)
 {
-    double reach = 0.0;
-    for (int k = 0; k < 3; k++)
-        reach += fabs(occ_dot(cutter, s->axis[k]));
-    double size = occ_dot_magnitude(cutter, s->size) + fabs(cutter[3]);
-    return occ_dot(cutter, s->center) + cutter[3] - reach > size * 1e-9;
+    quad n[3] = {splat_quad(cutter[0]), splat_quad(cutter[1]), splat_quad(cutter[2])};
+    quad reach = abs_quad(dot_quad(n, s->axis)), center = dot_quad(n, s->center);
+    quad size = dot_magnitude_quad(n, s->size);
+    return center[0] + cutter[3] - (reach[0] + reach[1] + reach[2]) >
+           (size[0] + fabs(cutter[3])) * 1e-9;
 }
 
 // The near plane cuts away what lies between it and the eye. The occluder is whole if it lies
 // beyond the near plane, which most do, or if all that is cut away is in front of one of its
 // visible faces.
-static bool survives_near(const solid *s, const occ_camera *camera, const face seen[3])
+static bool survives_near(const solid *s, const occ_camera *camera, uint32_t seen)
 {
     if (camera->cutter == OCC_NO_PLANE) return true;
     if (is_beyond(s, camera->plane[camera->cutter]) &&
@@ -259,22 +298,41 @@ static bool survives_near(const solid *s, const occ_camera *camera, const face s
         return true;
     }
     for (int k = 0; k < 3 && camera->has_corners; k++)
-        if (seen[k].sign && cut_is_in_front(s, camera, &seen[k], k)) return true;
+        if ((seen >> k & 1u) && cut_is_in_front(s, camera, k)) return true;
     return false;
 }
 
-bool occ_shadow_init(occ_shadow *shadow, const occ_camera *camera, const occ_box *box,
-                     uint32_t owner)
+// --- all of it -----------------------------------------------------------------------------------
+
+static inline bool add_silhouettes(occ_shadow *shadow, const solid *s, const occ_camera *camera)
+{
+    rims r;
+    plane_quad planes[3];
+    uint32_t lanes[3];
+    set_rims(&r, s, camera);
+    for (int k = 0; k < 3; k++)
+        lanes[k] = set_rim_planes(&planes[k], s, &r, camera, k);
+    if (camera->tolerance > 0.0 && !camera->orthographic)
+        turn_outward(planes, lanes, s, camera->tolerance);
+    bool good = true;
+    for (int k = 0; k < 3; k++)
+        good &= add_planes(shadow, &planes[k], lanes[k], 4);
+    return good;
+}
+
+bool OCC_SHADE(OCC_LANES_NAME)(occ_shadow *shadow, const occ_camera *camera, const occ_box *box,
+                               uint32_t owner)
 {
     solid s;
-    face seen[3];
     set_solid(&s, camera, box);
-    if (!see_faces(&s, camera, seen)) return false;
-    if (!survives_near(&s, camera, seen)) return false;
-    *shadow = (occ_shadow){.owner = owner};
-    if (!add_silhouettes(shadow, &s, camera, seen)) return false;
+    uint32_t seen = see_faces(&s, camera);
+    if (!seen || !survives_near(&s, camera, seen)) return false;
+    shadow->planes = 0;
+    shadow->owner = owner;
+    shadow->pad = 0;
+    if (!add_silhouettes(shadow, &s, camera)) return false;
     shadow->silhouettes = shadow->planes;
-    for (int k = 0; k < 3; k++)
-        if (seen[k].sign && !add_face(shadow, &s, &seen[k], k)) return false;
-    return true;
+    plane_quad faces;
+    set_face_planes(&faces, &s);
+    return add_planes(shadow, &faces, seen, 3);
 }

@@ -18,10 +18,38 @@
 // exact, being what it is; only n.c rounds.
 #include "shadow.h"
 
+#include "rounding.h"
 #include "sheet.h"
 #include "vector.h"
 
 #define EPS 0x1p-53
+
+// Bounds the error of every component of ray x axis, where |ray_j| <= from[j].
+static double cross_error(const double from[3], const double axis[3])
+{
+    double most = 0.0;
+    for (int j = 0; j < 3; j++) {
+        int p = (j + 1) % 3, q = (j + 2) % 3;
+        most = occ_larger(most, from[p] * fabs(axis[q]) + from[q] * fabs(axis[p]));
+    }
+    return 8.0 * EPS * most;
+}
+
+// Stores n.x + d > 0, where the components of n are off by at most `normal_error` and d by at most
+// `d_error`. False if n is too short for its error: then its direction means nothing.
+static bool add_plane(occ_shadow *shadow, const double n[3], double normal_error, double d,
+                      double d_error)
+{
+    double size = occ_largest(n);
+    if (!(size > 0.0) || !(size < 1e200) || normal_error > size * 0x1p-26) return false;
+    double scale = occ_unit_scale(size);
+    float *plane = shadow->plane[shadow->planes++];
+    for (int j = 0; j < 3; j++)
+        plane[j] = (float)(n[j] * scale);
+    double inward = (d - d_error) * scale;
+    plane[3] = occ_round_down(inward - fabs(inward) * 0x1p-21);
+    return true;
+}
 
 // A sheet relative to the eye.
 typedef struct loop {
@@ -115,7 +143,7 @@ static void set_side(side *e, const loop *l, const occ_camera *camera, const occ
     occ_cross(e->ray, along, e->n);
     for (int j = 0; j < 3; j++)
         e->n[j] *= l->turn;
-    e->error = occ_cross_error(bound, along);
+    e->error = cross_error(bound, along);
 }
 
 // Whether the outline is convex for certain, every corner within all edges that do not end there.
@@ -164,7 +192,7 @@ static bool add_side(occ_shadow *shadow, const loop *l, const occ_camera *camera
         d_error =
             16.0 * EPS * occ_dot_magnitude(n, l->size) + 3.0 * e->error * occ_largest(l->size);
     }
-    return occ_shadow_add_plane(shadow, n, e->error, d, d_error);
+    return add_plane(shadow, n, e->error, d, d_error);
 }
 
 // Every other edge first, and then those between: one that is opposite to the first, as a box has
@@ -236,5 +264,5 @@ bool occ_shadow_of_sheet(occ_shadow *shadow, const occ_camera *camera, const occ
     *shadow = (occ_shadow){.owner = owner};
     if (!add_sides(shadow, &l, camera, sheet)) return false;
     shadow->silhouettes = shadow->planes;
-    return occ_shadow_add_plane(shadow, l.n, 0.0, -l.high, l.error);
+    return add_plane(shadow, l.n, 0.0, -l.high, l.error);
 }

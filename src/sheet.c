@@ -82,14 +82,18 @@ static bool measure(sheet_frame *frame, const occ_sheet *sheet, const float from
     const double *a = frame->axis[0], *b = frame->axis[1], *c = frame->axis[2];
     double whole = volume_of(a, b, c);
     if (!(fabs(whole) > 0.0)) return false;
+    for (int k = 0; k < 3; k++) {
+        frame->low[k] = INFINITY;
+        frame->high[k] = -INFINITY;
+    }
     for (uint32_t i = 0; i < sheet->corner_count; i++) {
         double d[3];
         corner_from(sheet, i, from, d);
         double at[3] = {volume_of(d, b, c) / whole, volume_of(a, d, c) / whole,
                         volume_of(a, b, d) / whole};
         for (int k = 0; k < 3; k++) {
-            frame->low[k] = i && frame->low[k] < at[k] ? frame->low[k] : at[k];
-            frame->high[k] = i && frame->high[k] > at[k] ? frame->high[k] : at[k];
+            frame->low[k] = at[k] < frame->low[k] ? at[k] : frame->low[k];
+            frame->high[k] = at[k] > frame->high[k] ? at[k] : frame->high[k];
         }
     }
     return true;
@@ -122,6 +126,7 @@ static bool find_frame(sheet_frame *best, const occ_sheet *sheet)
 {
     sheet_frame frame;
     double least = INFINITY, normal[3], extent = 0.0;
+    *best = (sheet_frame){.low = {0.0}};
     occ_sheet_normal(sheet, normal);
     for (uint32_t i = 0; i < sheet->corner_count; i++) {
         edge_of(sheet, i, frame.axis[0]);
@@ -141,7 +146,7 @@ static bool find_frame(sheet_frame *best, const occ_sheet *sheet)
             occ_cross(frame.axis[0], frame.axis[1], turn);
             double sizes = occ_dot(frame.axis[0], frame.axis[0]);
             sizes *= occ_dot(frame.axis[1], frame.axis[1]);
-            if (occ_dot(turn, turn) > sizes * 0x1p-10) offer(best, &least, &frame, sheet);
+            if (occ_dot(turn, turn) > sizes * 0x1p-20) offer(best, &least, &frame, sheet);
         }
     }
     return least < INFINITY;

@@ -165,25 +165,39 @@ static occ_result close_nearer(occ_frame *frame)
 
 // --- occluders -----------------------------------------------------------------------------------
 
-// Pushes the occluders in rows [first, first + count) that are large enough.
+// Pushes the occluders in rows [first, first + count) that are large enough and not hidden yet.
 static occ_result push_occluders(occ_frame *frame, uint32_t planes, uint32_t first, uint32_t count)
 {
     const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
     const occ_selection *choice = &frame->selection;
+    occ_shadow_set set = occ_occluders_so_far(frame);
+    uint32_t asked = set.count < OCC_WALK_ASKED ? set.count : OCC_WALK_ASKED;
     for (uint32_t i = 0; i < count; i += OCC_SHADOW_LANES) {
         float key[OCC_SHADOW_LANES];
         uint32_t left = count - i < OCC_SHADOW_LANES ? count - i : OCC_SHADOW_LANES;
-        uint32_t chosen = frame->lanes->select(boxes + first + i, left, choice, planes, key);
+        uint32_t chosen = frame->lanes->select(boxes + first + i, left, choice, planes, &set, key);
         for (; chosen; chosen &= chosen - 1u) {
             uint32_t l = (uint32_t)__builtin_ctz(chosen);
             const occ_sheet *sheet = occ_scene_sheet(frame->scene, first + i + l);
             if (sheet && !occ_occluder_sheet_is_large(frame, sheet)) continue;
             occ_walk_entry entry = {
-                .key = key[l], .index = first + i + l, .what = OCC_WALK_OCCLUDER | planes};
+                .key = key[l], .index = first + i + l, .what = OCC_WALK_OCCLUDER | asked};
             if (occ_queue_push(frame->hooks, &frame->queue, entry)) return OCC_ERROR_OUT_OF_MEMORY;
         }
     }
     return OCC_SUCCESS;
+}
+
+// Whether an occluder that came after the first `asked` hides another one. (Alone: occluders that
+// several hide together are rare, and cost less than to find that out.)
+static bool is_hidden_since(const occ_frame *frame, const occ_relative_box *box, uint32_t asked)
+{
+    occ_projection seen;
+    occ_question question = {
+        .box = box, .seen = &seen, .asked = asked, .key = INFINITY, .upright = false};
+    occ_shadow_set set = occ_occluders_so_far(frame);
+    return set.count > asked &&
+           frame->lanes->hide(&question, &set, &frame->camera.constants, &frame->camera.screen);
 }
 
 static occ_result visit_occluder(occ_frame *frame, const occ_walk_entry *entry)
@@ -192,9 +206,8 @@ static occ_result visit_occluder(occ_frame *frame, const occ_walk_entry *entry)
     frame->stats.occluders_tested++;
     const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
     occ_relative_box box = occ_frame_relative(frame, &boxes[entry->index]);
-    occ_projection seen;
-    if (is_hidden(frame, &box, &seen, entry->what & OCC_WALK_PLANES, 0, 0)) return OCC_SUCCESS;
-    seen = project(frame, &box);
+    if (is_hidden_since(frame, &box, entry->what & OCC_WALK_ASKED)) return OCC_SUCCESS;
+    occ_projection seen = project(frame, &box);
     return occ_occluders_add(frame, entry->index, entry->key, &seen);
 }
 

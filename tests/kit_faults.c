@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kit_faults.h"
 
+#include "kit_sheets.h"
 #include "kit_tree.h"
 
 #include <stdlib.h>
@@ -99,6 +100,14 @@ static void move_some(run *r, float by, uint32_t step)
     TRY(r, occ_scene_move_many(r->scene, moved, boxes, count));
 }
 
+static void add_sheets(run *r, const occ_box *boxes)
+{
+    occ_sheet sheets[30];
+    for (int i = 0; i < 30; i++)
+        sheets[i] = kit_sheet_of_box(&boxes[i]);
+    TRY(r, occ_scene_add_sheets(r->scene, sheets, r->objects, 30, NULL));
+}
+
 static void run_script(run *r)
 {
     kit_random random = {5};
@@ -116,6 +125,7 @@ static void run_script(run *r)
     cull(r);
     move_some(r, 0.0005f, 3); // within their cells
     TRY(r, occ_scene_add_occluders(r->scene, boxes, NULL, 80, r->nobodys));
+    add_sheets(r, boxes);
     commit(r);
     cull(r);
     TRY(r, occ_scene_remove(r->scene, r->objects[3]));
@@ -125,6 +135,8 @@ static void run_script(run *r)
     TRY(r, occ_scene_add_occluder(r->scene, &boxes[4], r->objects[4], NULL)); // its second
     TRY(r, occ_scene_move_occluder(r->scene, r->nobodys[1], &boxes[98]));
     TRY(r, occ_scene_remove_occluder(r->scene, r->nobodys[2]));
+    occ_sheet sheet = kit_sheet_of_box(&boxes[7]);
+    TRY(r, occ_scene_move_sheet(r->scene, r->nobodys[3], &sheet)); // a box until now
     move_some(r, 11.0f, 7);
     commit(r);
     cull(r);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kit_model.h"
 
+#include "kit_sheets.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,6 +70,32 @@ static occ_box moved(kit_random *random, const occ_box *box)
     return near;
 }
 
+// Of every shape, and some that hide nothing: bent, crossed, a line.
+static occ_sheet any_sheet(kit_random *random)
+{
+    occ_box box = any_box(random);
+    occ_sheet sheet = kit_sheet_of_box(&box);
+    uint32_t kind = kit_below(random, 4), corners = 3 + kit_below(random, 6);
+    if (kind == 0) sheet.sides = OCC_SIDES_FRONT;
+    if (kind == 1) sheet = kit_round_sheet(random, corners, box.center, 5);
+    if (kind != 2) return sheet;
+    sheet.corner_count = corners;
+    for (uint32_t i = 0; i < corners; i++)
+        for (int j = 0; j < 3; j++)
+            sheet.corner[i][j] = box.center[j] + (j ? 0.0f : kit_between(random, -3, 3));
+    return sheet;
+}
+
+static occ_sheet moved_sheet(kit_random *random, const kit_occluder *from)
+{
+    occ_sheet sheet = from->sheet;
+    if (!from->is_sheet || !kit_below(random, 3)) return any_sheet(random);
+    for (uint32_t i = 0; i < sheet.corner_count; i++)
+        for (int j = 0; j < 3; j++)
+            sheet.corner[i][j] += kit_between(random, -0.001f, 0.001f);
+    return sheet;
+}
+
 static void add_objects(kit_model *model)
 {
     occ_box boxes[32];
@@ -132,7 +160,14 @@ static void add_occluder(kit_model *model)
     }
     kit_occluder *made = &model->occluders[model->occluder_count++];
     *made = (kit_occluder){.box = box, .owner = owner, .alive = true};
-    KIT_CHECK(!occ_scene_add_occluder(model->scene, &box, handle, &made->handle), "refused");
+    made->is_sheet = !kit_below(&model->random, 3);
+    if (made->is_sheet) {
+        made->sheet = any_sheet(&model->random);
+        KIT_CHECK(!occ_scene_add_sheet(model->scene, &made->sheet, handle, &made->handle),
+                  "refused");
+    } else {
+        KIT_CHECK(!occ_scene_add_occluder(model->scene, &box, handle, &made->handle), "refused");
+    }
 }
 
 static void move_occluder(kit_model *model)
@@ -140,6 +175,15 @@ static void move_occluder(kit_model *model)
     uint32_t i = any_occluder(model);
     if (i == NOBODY) return;
     kit_occluder *occluder = &model->occluders[i];
+    bool to_sheet = kit_below(&model->random, 8) ? occluder->is_sheet : !occluder->is_sheet;
+    if (to_sheet) {
+        occluder->sheet = moved_sheet(&model->random, occluder);
+        KIT_CHECK(!occ_scene_move_sheet(model->scene, occluder->handle, &occluder->sheet),
+                  "refused");
+        occluder->is_sheet = true;
+        return;
+    }
+    occluder->is_sheet = false;
     occluder->box = moved(&model->random, &occluder->box);
     KIT_CHECK(!occ_scene_move_occluder(model->scene, occluder->handle, &occluder->box), "refused");
 }
@@ -193,12 +237,18 @@ static void check_occluder(const kit_model *model, uint32_t i)
 {
     const kit_occluder *occluder = &model->occluders[i];
     occ_box box;
+    occ_sheet sheet;
     occ_object owner, expected = {0, 0};
-    occ_result result = occ_scene_occluder_box(model->scene, occluder->handle, &box, &owner);
+    occ_result result =
+        occluder->is_sheet
+            ? occ_scene_occluder_sheet(model->scene, occluder->handle, &sheet, &owner)
+            : occ_scene_occluder_box(model->scene, occluder->handle, &box, &owner);
     KIT_CHECK(result == (occluder->alive ? OCC_SUCCESS : OCC_ERROR_STALE_HANDLE), "occluder %u: %s",
               i, occ_result_name(result));
     if (!occluder->alive) return;
-    KIT_CHECK(kit_same_bits(&box, &occluder->box, sizeof box), "occluder %u has another's box", i);
+    bool same = occluder->is_sheet ? kit_same_sheets(&sheet, &occluder->sheet)
+                                   : kit_same_bits(&box, &occluder->box, sizeof box);
+    KIT_CHECK(same, "occluder %u is another's", i);
     if (occluder->owner != NOBODY) expected = model->objects[occluder->owner].handle;
     KIT_CHECK(owner.index == expected.index && owner.generation == expected.generation,
               "occluder %u has another owner", i);
@@ -290,9 +340,11 @@ static void build_occluders(const kit_model *model, const plan *p, occ_scene *sc
         uint32_t i = p->at[p->order[k]];
         const kit_occluder *real = i == NOBODY ? NULL : &model->occluders[i];
         occ_object owner = real && real->owner != NOBODY ? handles[real->owner] : nobody;
-        KIT_CHECK(!occ_scene_add_occluder(scene, real ? &real->box : &filler, owner,
-                                          real ? &made : &unwanted[fillers++]),
-                  "an occluder is refused");
+        occ_result result = real && real->is_sheet
+                                ? occ_scene_add_sheet(scene, &real->sheet, owner, &made)
+                                : occ_scene_add_occluder(scene, real ? &real->box : &filler, owner,
+                                                         real ? &made : &unwanted[fillers++]);
+        KIT_CHECK(!result, "an occluder is refused");
     }
     while (fillers)
         KIT_CHECK(!occ_scene_remove_occluder(scene, unwanted[--fillers]), "a filler stays");

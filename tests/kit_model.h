@@ -16,7 +16,9 @@ typedef struct kit_object {
 
 typedef struct kit_occluder {
     occ_occluder handle;
-    occ_box box;
+    bool is_sheet;
+    occ_box box; // if it is none
+    occ_sheet sheet;
     uint32_t owner; // index of an object, or UINT32_MAX
     bool alive;
 } kit_occluder;

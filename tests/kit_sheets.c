@@ -39,6 +39,12 @@ occ_sheet kit_sheet_reversed(const occ_sheet *sheet)
     return reversed;
 }
 
+bool kit_same_sheets(const occ_sheet *a, const occ_sheet *b)
+{
+    return a->corner_count == b->corner_count && a->sides == b->sides &&
+           kit_same_bits(a->corner, b->corner, a->corner_count * sizeof *a->corner);
+}
+
 occ_sheet kit_round_sheet(kit_random *random, uint32_t corners, const float center[3], float size)
 {
     occ_sheet sheet = {.corner_count = corners};

@@ -16,6 +16,9 @@ occ_sheet kit_sheet_of_box(const occ_box *box);
 // The same corners the other way round.
 occ_sheet kit_sheet_reversed(const occ_sheet *sheet);
 
+// Whether two are the same in all that is read of them.
+bool kit_same_sheets(const occ_sheet *a, const occ_sheet *b);
+
 // A convex polygon of so many corners around a point, in a plane that goes through three of them,
 // but for what the floats round.
 occ_sheet kit_round_sheet(kit_random *random, uint32_t corners, const float center[3], float size);

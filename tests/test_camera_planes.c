@@ -5,7 +5,6 @@
 // their own bound would cover for a plane that is off by an ulp.
 #include "oracle_data.h"
 
-#include "shadow.h"
 #include "support.h"
 #include "verdicts.h"
 #include "worlds.h"
@@ -243,7 +242,7 @@ START_TEST(no_silhouette_of_a_derived_eye_holds_the_exact_one)
                 center[j] = frame.camera.eye[j] + 4 * size * aside[j];
             occ_box box = world_box(&random, WORLD_TURNED, center, size);
             occ_shadow shadow;
-            if (!occ_shadow_init(&shadow, &frame.camera, &box, OCC_NOBODY)) continue;
+            if (!occ_lanes_choose()->shade(&shadow, &frame.camera, &box, OCC_NOBODY)) continue;
             for (uint32_t p = 0; p < shadow.silhouettes; p++) {
                 silhouettes++;
                 beyond += value_at_exact_eye(o, frame.camera.eye, shadow.plane[p]) > 0;

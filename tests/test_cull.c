@@ -86,8 +86,9 @@ static void use_force(const crowd *c, const occ_camera_desc *camera, const bool 
     occ_shadow shadows[OCCLUDERS];
     bool casts[OCCLUDERS];
     for (uint32_t k = 0; k < c->occluder_count; k++)
-        casts[k] = (!used || used[k]) &&
-                   occ_shadow_init(&shadows[k], &frame.camera, &c->occluders[k].box, OCC_NOBODY);
+        casts[k] =
+            (!used || used[k]) &&
+            occ_lanes_choose()->shade(&shadows[k], &frame.camera, &c->occluders[k].box, OCC_NOBODY);
     *f = (force){{false}, {false}};
     for (uint32_t i = 0; i < c->object_count; i++) {
         occ_relative_box box = occ_frame_relative(&frame, &c->objects[i]);

@@ -9,10 +9,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Every fourth occluder is a sheet in the middle of its box instead.
 static obs_scene made(const char *kind, uint32_t count)
 {
+    static const float sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     obs_scene scene;
     ck_assert(scenes_make(kind, count, 7, &scene));
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < scene.occluder_count; i++) {
+        const obs_occluder *from = &scene.occluders[i];
+        occ_sheet sheet = {.corner_count = 4, .sides = (occ_sides)(i / 4 % 2)};
+        for (int c = 0; c < 4; c++)
+            for (int k = 0; k < 3; k++)
+                sheet.corner[c][k] = from->box.center[k] + sign[c][0] * from->box.axis[0][k] +
+                                     sign[c][1] * from->box.axis[1][k];
+        if (i % 4)
+            scene.occluders[kept++] = *from;
+        else
+            obs_add_sheet(&scene, &sheet, from->owner);
+    }
+    scene.occluder_count = kept;
+    ck_assert(scene.sheet_count > 0 && !scene.out_of_memory);
     return scene;
 }
 
@@ -63,6 +80,15 @@ START_TEST(power_of_two_scales_every_length_exactly)
         ck_assert_uint_eq(large.occluders[i].owner, scene.occluders[i].owner);
         assert_times(scene.occluders[i].box.center[1], 128, large.occluders[i].box.center[1]);
         assert_times(scene.occluders[i].box.axis[2][2], 128, large.occluders[i].box.axis[2][2]);
+    }
+    ck_assert_uint_eq(large.sheet_count, scene.sheet_count);
+    for (uint32_t i = 0; i < scene.sheet_count; i++) {
+        const obs_sheet *from = &scene.sheets[i], *to = &large.sheets[i];
+        ck_assert_uint_eq(to->owner, from->owner);
+        ck_assert_int_eq(to->sheet.sides, from->sheet.sides);
+        ck_assert_uint_eq(to->sheet.corner_count, 4);
+        for (int k = 0; k < 12; k++)
+            assert_times(from->sheet.corner[k / 3][k % 3], 128, to->sheet.corner[k / 3][k % 3]);
     }
     const obs_frame *before = &scene.frames[9], *after = &large.frames[9];
     for (int k = 0; k < 3; k++) {
@@ -129,6 +155,8 @@ START_TEST(identity_is_of_the_content)
     float *places[] = {&again.objects[50].center[0],
                        &again.objects[160].axis[2][2],
                        &again.occluders[3].box.axis[1][0],
+                       &again.sheets[2].sheet.corner[0][0],
+                       &again.sheets[2].sheet.corner[3][2],
                        &again.frames[59].eye[2],
                        &again.frames[0].dir[0],
                        &again.frames[7].view[15],
@@ -142,6 +170,17 @@ START_TEST(identity_is_of_the_content)
     again.occluders[0].owner ^= 1;
     ck_assert_uint_ne(identity, error_scene_identity(&again));
     again.occluders[0].owner ^= 1;
+    ck_assert_uint_eq(identity, error_scene_identity(&again));
+    uint32_t *numbers[] = {&again.sheets[1].owner, &again.sheets[1].sheet.corner_count,
+                           &again.sheet_count};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        --*numbers[i];
+        ck_assert_msg(error_scene_identity(&again) != identity, "number %zu does not count", i);
+        ++*numbers[i];
+    }
+    again.sheets[0].sheet.sides = OCC_SIDES_FRONT;
+    ck_assert_uint_ne(identity, error_scene_identity(&again));
+    again.sheets[0].sheet.sides = OCC_SIDES_BOTH;
     ck_assert_uint_eq(identity, error_scene_identity(&again));
     again.frame_count--;
     ck_assert_uint_ne(identity, error_scene_identity(&again));

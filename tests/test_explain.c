@@ -25,7 +25,8 @@ typedef struct explained_world {
     occ_camera_desc camera;
     const occ_box *objects;
     const world_occluder *occluders;
-    uint32_t object_count, occluder_count;
+    const world_sheet *sheets; // their handles come after those of the boxes
+    uint32_t object_count, occluder_count, sheet_count;
     occ_scene *scene;
     occ_object *handles;
     occ_occluder *occluder_handles;
@@ -38,11 +39,27 @@ static void *room_for(size_t count, size_t size)
     return room;
 }
 
+static uint32_t handle_count(const explained_world *w)
+{
+    return w->occluder_count + w->sheet_count;
+}
+
+static void add_sheets(explained_world *w)
+{
+    for (uint32_t i = 0; i < w->sheet_count; i++) {
+        int owner = w->sheets[i].owner;
+        const occ_object of = owner < 0 ? (occ_object){0, 0} : w->handles[owner];
+        ck_assert_int_eq(occ_scene_add_sheet(w->scene, &w->sheets[i].sheet, of,
+                                             &w->occluder_handles[w->occluder_count + i]),
+                         OCC_SUCCESS);
+    }
+}
+
 static void build(explained_world *w, uint32_t leaf_objects)
 {
     const occ_scene_desc desc = {.leaf_objects = leaf_objects};
     w->handles = room_for(w->object_count, sizeof *w->handles);
-    w->occluder_handles = room_for(w->occluder_count, sizeof *w->occluder_handles);
+    w->occluder_handles = room_for(handle_count(w), sizeof *w->occluder_handles);
     occ_box *boxes = room_for(w->occluder_count, sizeof *boxes);
     occ_object *owners = room_for(w->occluder_count, sizeof *owners);
     for (uint32_t i = 0; i < w->occluder_count; i++)
@@ -55,6 +72,7 @@ static void build(explained_world *w, uint32_t leaf_objects)
     ck_assert_int_eq(
         occ_scene_add_occluders(w->scene, boxes, owners, w->occluder_count, w->occluder_handles),
         OCC_SUCCESS);
+    add_sheets(w);
     ck_assert_int_eq(occ_scene_commit(w->scene), OCC_SUCCESS);
     free(boxes);
     free(owners);
@@ -88,7 +106,7 @@ static explanation explain(const occ_view *view, const explained_world *w, uint3
 // The occluder's place in the world.
 static uint32_t place_of(const explained_world *w, occ_occluder named)
 {
-    for (uint32_t i = 0; i < w->occluder_count; i++)
+    for (uint32_t i = 0; i < handle_count(w); i++)
         if (kit_same_bits(&w->occluder_handles[i], &named, sizeof named)) return i;
     ck_abort_msg("occluder {%u, %u} is none", named.index, named.generation);
 }
@@ -99,7 +117,7 @@ static uint32_t place_of(const explained_world *w, occ_occluder named)
               (unsigned)(object), __VA_ARGS__)
 
 typedef struct explained_counts {
-    uint64_t outside, by_one, by_several;
+    uint64_t outside, by_one, by_several, by_sheets;
 } explained_counts;
 
 // The occluders that took part.
@@ -110,9 +128,8 @@ typedef struct participants {
 
 static participants read_participants(const occ_view *view, const explained_world *w)
 {
-    participants p = {room_for(w->occluder_count, sizeof *p.list), 0};
-    ck_assert_int_eq(occ_view_read_occluders(view, p.list, w->occluder_count, &p.count),
-                     OCC_SUCCESS);
+    participants p = {room_for(handle_count(w), sizeof *p.list), 0};
+    ck_assert_int_eq(occ_view_read_occluders(view, p.list, handle_count(w), &p.count), OCC_SUCCESS);
     return p;
 }
 
@@ -128,23 +145,34 @@ static void check_order(const explained_world *w, const participants *p, const e
     }
 }
 
-// That the named alone hide the object.
-static void check_hidden(judge *j, const explained_world *w, uint32_t object, const explanation *e)
+// That the named alone hide the object. Returns how many of them are sheets.
+static size_t check_hidden(judge *j, const explained_world *w, uint32_t object,
+                           const explanation *e)
 {
     occ_box boxes[MOST_NAMED];
+    occ_sheet sheets[MOST_NAMED];
+    size_t box_count = 0, sheet_count = 0;
     const occ_box *box = &w->objects[object];
     CHECK_OBJECT(e->count > 0, w, object, "is hidden by %zu", e->count);
     for (size_t i = 0; i < e->count; i++) {
-        const world_occluder *from = &w->occluders[place_of(w, e->named[i])];
-        CHECK_OBJECT(from->owner != (int)object, w, object, "is hidden by its own: %zu", i);
-        boxes[i] = from->box;
+        uint32_t place = place_of(w, e->named[i]);
+        bool is_sheet = place >= w->occluder_count;
+        const world_sheet *sheet = is_sheet ? &w->sheets[place - w->occluder_count] : NULL;
+        int owner = is_sheet ? sheet->owner : w->occluders[place].owner;
+        CHECK_OBJECT(owner != (int)object, w, object, "is hidden by its own: %zu", i);
+        if (is_sheet)
+            sheets[sheet_count++] = sheet->sheet;
+        else
+            boxes[box_count++] = w->occluders[place].box;
     }
-    judge_set_occluders(j, boxes, NULL, e->count);
+    judge_set_occluders(j, boxes, NULL, box_count);
+    judge_add_sheets(j, sheets, NULL, sheet_count);
     CHECK_OBJECT(!judge_sees(j, box, -1), w, object, "can be seen past the %zu that hide it",
                  e->count);
-    if (e->count == 1 && judge_frustum(j, box) == JUDGE_INSIDE)
+    if (e->count == 1 && box_count == 1 && judge_frustum(j, box) == JUDGE_INSIDE)
         CHECK_OBJECT(judge_single(j, box, &boxes[0]) == JUDGE_HIDDEN, w, object,
                      "can be seen past the %zu", e->count);
+    return sheet_count;
 }
 
 static void check_object(judge *j, const explained_world *w, const occ_view *view,
@@ -157,7 +185,7 @@ static void check_object(judge *j, const explained_world *w, const occ_view *vie
     counts->by_one += e.count == 1;
     counts->by_several += e.count > 1;
     if (e.fate == OCC_FATE_HIDDEN) {
-        check_hidden(j, w, object, &e);
+        counts->by_sheets += check_hidden(j, w, object, &e);
         check_order(w, p, &e);
         return;
     }
@@ -209,8 +237,10 @@ static bool make_hard(explained_world *w, family_world *made, const family *f, u
                            .camera = made->camera,
                            .objects = made->objects,
                            .occluders = made->occluders,
+                           .sheets = made->sheets,
                            .object_count = made->object_count,
-                           .occluder_count = made->occluder_count};
+                           .occluder_count = made->occluder_count,
+                           .sheet_count = made->sheet_count};
     judge *j = judge_of_camera(&w->camera);
     if (j) judge_free(j);
     return j != NULL;
@@ -245,6 +275,7 @@ START_TEST(what_a_hard_world_hides_is_hidden_by_those_named)
     for (int k = 0; k < KNOBS; k++) {
         ck_assert_uint_gt(counts[k].by_one, WORLD_SHARE(1000));
         ck_assert_uint_gt(counts[k].outside, WORLD_SHARE(1000));
+        ck_assert_uint_gt(counts[k].by_sheets, WORLD_SHARE(1000));
         if (k < 2) ck_assert_uint_gt(counts[k].by_several, WORLD_SHARE(200));
         if (k >= 2) ck_assert_uint_eq(counts[k].by_several, 0);
     }

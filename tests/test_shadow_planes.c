@@ -236,7 +236,7 @@ START_TEST(every_plane_of_a_shadow_is_next_to_the_exact_one_and_inside)
         any_eye(&random, &box, size, eye);
         occ_frame frame = verdict_frame_at(eye);
         occ_shadow shadow;
-        if (!occ_shadow_init(&shadow, &frame.camera, &box, OCC_NOBODY)) continue;
+        if (!occ_lanes_choose()->shade(&shadow, &frame.camera, &box, OCC_NOBODY)) continue;
         set_exact_solid(&w, &box, eye);
         set_ways(&w);
         double reach = 0.0;

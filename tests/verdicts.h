@@ -4,7 +4,7 @@
 #define OCC_TEST_VERDICTS_H
 
 #include "frame.h"
-#include "shadow.h"
+#include "lanes.h"
 
 #include <check.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static inline occ_frame verdict_frame_at(const double eye[3])
 static inline uint32_t verdict_planes(const occ_frame *frame, const occ_box *occluder)
 {
     occ_shadow shadow;
-    if (!occ_shadow_init(&shadow, &frame->camera, occluder, OCC_NOBODY)) return 0;
+    if (!occ_lanes_choose()->shade(&shadow, &frame->camera, occluder, OCC_NOBODY)) return 0;
     return shadow.planes;
 }
 
@@ -42,7 +42,7 @@ static inline bool verdict_hides(const occ_frame *frame, const occ_box *occluder
                                  const occ_box *object)
 {
     occ_shadow shadow;
-    if (!occ_shadow_init(&shadow, &frame->camera, occluder, OCC_NOBODY)) return false;
+    if (!occ_lanes_choose()->shade(&shadow, &frame->camera, occluder, OCC_NOBODY)) return false;
     occ_relative_box box = occ_frame_relative(frame, object);
     return occ_box_in_shadow(&box, shadow.plane[0], shadow.planes);
 }

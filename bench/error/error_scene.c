@@ -198,6 +198,7 @@ uint64_t error_scene_identity(const obs_scene *scene)
         hash = add_box(hash, &scene->objects[i]);
     for (uint32_t i = 0; i < scene->occluder_count; i++)
         hash = add_word(add_box(hash, &scene->occluders[i].box), scene->occluders[i].owner);
+    if (scene->sheet_count > 0) hash = add_word(hash, scene->sheet_count); // as before without
     for (uint32_t i = 0; i < scene->sheet_count; i++)
         hash = add_sheet(hash, &scene->sheets[i]);
     for (uint32_t i = 0; i < scene->frame_count; i++) {

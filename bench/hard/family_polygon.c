@@ -146,9 +146,10 @@ FAMILY(polygon_octagons)
     double z = -stage_whole(s, 6, 14), size = stage_whole(s, 1, 3);
     stage_sheet sheets[24];
     for (int i = 0; i < across * up; i++) {
-        double x = 4 * size * (i % across - 1), y = 4 * size * (i / across - 1);
+        int column = i % across, row = i / across;
+        double x = 4 * size * (column - 1), y = 4 * size * (row - 1);
         sheets[count++] = stage_octagon(x, y, z, 2 * size, size);
-        if (i % across == 0 || i < across) continue;
+        if (column == 0 || row == 0) continue;
         x -= 2 * size;
         y -= 2 * size;
         sheets[count++] = (stage_sheet){
@@ -278,7 +279,8 @@ FAMILY(polygon_mixed)
     look(s);
     double x = stage_whole(s, -2, 2), y = stage_whole(s, -2, 2), z = -stage_whole(s, 6, 12);
     for (int i = 0; i < 9; i++) { // three by three, flush with their neighbours or over their rims
-        double left = x + 2 * (i % 3) - 3, low = y + 2 * (i / 3) - 3;
+        int column = i % 3, row = i / 3;
+        double left = x + 2 * column - 3, low = y + 2 * row - 3;
         double over = stage_chance(s, 2) ? 0.0 : stage_part(s, 0, 0.5);
         double thick = stage_chance(s, 2) ? 0.0 : stage_part(s, 0, 1);
         stage_sheet sheet = stage_quad(left - over, left + 2, low, low + 2 + over, z);

@@ -11,8 +11,8 @@
 
 #include <stdatomic.h>
 
-/// The triangles of all occluders: 12 for a box, 2 for a flat one, those of its fan for a sheet. All
-/// zero is closed.
+/// The triangles of all occluders: 12 for a box, 2 for a flat one, those of its fan for a sheet.
+/// All zero is closed.
 typedef struct peer_tree {
     RTCDevice device;
     RTCScene scene;

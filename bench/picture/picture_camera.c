@@ -7,6 +7,7 @@
 #include "raster.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { STRIPE_PERIOD = 14, STRIPE_WIDTH = 4 };
 
@@ -25,9 +26,10 @@ typedef struct layers {
     layer visible, occluders, culprits, hidden, together;
 } layers;
 
-static const occ_box *box_of(const layer *from, const obs_scene *scene, uint32_t number)
+static void copy_directions(const float *a, const float *b, float u[3], float v[3])
 {
-    return from->of_occluders ? &scene->occluders[number].box : &scene->objects[number];
+    memcpy(u, a, 3 * sizeof *u);
+    memcpy(v, b, 3 * sizeof *v);
 }
 
 // Two directions in a face, as a raster names it.
@@ -35,12 +37,18 @@ static void face_directions(const layer *from, const obs_scene *scene, uint32_t 
                             float v[3])
 {
     uint32_t number = face / 6, axis = face % 6 / 2;
-    const occ_sheet *sheet = from->of_occluders ? obs_occluder_sheet(scene, number) : NULL;
-    const occ_box *box = sheet ? NULL : box_of(from, scene, number);
-    for (int k = 0; k < 3; k++) {
-        u[k] = box ? box->axis[(axis + 1) % 3][k] : sheet->corner[1][k] - sheet->corner[0][k];
-        v[k] = box ? box->axis[(axis + 2) % 3][k] : sheet->corner[2][k] - sheet->corner[0][k];
+    if (from->of_occluders && number >= scene->occluder_count) {
+        const occ_sheet *sheet = &scene->sheets[number - scene->occluder_count].sheet;
+        copy_directions(sheet->corner[1], sheet->corner[2], u, v);
+        for (int k = 0; k < 3; k++) {
+            u[k] -= sheet->corner[0][k];
+            v[k] -= sheet->corner[0][k];
+        }
+        return;
     }
+    const occ_box *box =
+        from->of_occluders ? &scene->occluders[number].box : &scene->objects[number];
+    copy_directions(box->axis[(axis + 1) % 3], box->axis[(axis + 2) % 3], u, v);
 }
 
 // By which way a face looks: light from above, a little from one side.

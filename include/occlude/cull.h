@@ -171,7 +171,7 @@ typedef struct occ_view_stats {
     uint32_t test_hidden;      ///< Of these: hidden, by one occluder or with FUSED by several.
     uint32_t visible;          ///< Of these: the rest, which the mask shows.
     uint32_t nodes_tested;     ///< Octree nodes tested, of both trees.
-    uint32_t occluders_tested; ///< Occluders large enough that were met.
+    uint32_t occluders_tested; ///< Occluders, large enough and not hidden, whose turn came.
     uint32_t occluders_used;   ///< Occluders in the frozen set.
     uint32_t ranges;           ///< Contiguous object ranges handed to the parallel test.
     double walk_ms;            ///< Wall time of choosing occluders and walking the octree.

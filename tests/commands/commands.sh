@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # sh commands.sh PROGRAM GROUP: runs occlude-bench with arguments good and bad, and demands of each run
 # its exit status, what it says, and that bad ones leave no file behind. Groups: truth, compare,
-# settle, settle_absent (a build without GMP), cull, picture, seed, error, error_hard, targets, and
-# wrong, which must fail.
+# settle, settle_absent (a build without GMP), cull, picture, seed, sheets, error, error_hard, targets,
+# and wrong, which must fail.
 set -u
 program=$1
 work=$(mktemp -d) || exit 1
@@ -339,6 +339,25 @@ targets_group()
     grep -q '^| city_1000 | 1001 | ' report/targets.md || fail "no row in report/targets.md"
 }
 
+# A file of version 2, through every command that takes one.
+sheets_group()
+{
+    expect 0 out 'families=1 worlds=1 ' hard --family polygon_mixed --seed 3 --out sheets.obs
+    [ "$(head -c 4 sheets.obs)" = OBS2 ] || fail "sheets.obs is not of version 2"
+    expect 0 out 'frames=1 ' truth sheets.obs --out sheets.tru --size 320x180
+    for method in single fused pairwise frustum; do
+        expect 0 out 'frames=1 objects=' cull sheets.obs --repeat 1 --backend plain --method $method --out sheets.vis
+        expect 0 out ' false_hidden=0 ' compare sheets.tru sheets.vis --scene sheets.obs --hidden 100
+    done
+    expect 0 out ' missed_pct=100.000' compare sheets.tru sheets.vis --scene sheets.obs
+    if "$program" picture --help >out 2>err; then
+        expect 0 out ' together=' picture sheets.obs --size 800x400 --out sheets.png --method fused
+    fi
+    head -c 4 sheets.obs | tr 2 1 >older.obs
+    tail -c +5 sheets.obs >>older.obs
+    expect 1 err 'older.obs: byte ' cull older.obs --repeat 1
+}
+
 seed_group()
 {
     expect 0 out 'usage: occlude-bench seed' seed --help
@@ -360,6 +379,7 @@ case $2 in
 cull) cull_group ;;
 picture) picture_group ;;
 seed) seed_group ;;
+sheets) sheets_group ;;
 targets) targets_group ;;
 error) error_group ;;
 error_hard) error_hard_group ;;

@@ -33,15 +33,15 @@ occ_caught_by(no_floor shadow "by hand" "${can_be_seen}" COMPILED)
 
 # The bounds of set-up: what a plane is moved by, what its offset and its eye may be off by, and
 # when a face counts as seen.
-occ_plant(not_inward ${in_shadow} REPLACE "inward - fabs(inward) * 0x1p-21" BY "inward")
+occ_plant(not_inward ${in_shadow} REPLACE "inward - abs_quad(inward) * 0x1p-21" BY "inward")
 occ_caught_by(not_inward shadow_planes exact "inward by [-+.0-9e]+ u.d.")
-occ_plant(no_offset_error ${in_shadow} REPLACE "(d - d_error) * scale" BY "(d - 0.0 * d_error) * scale")
+occ_plant(no_offset_error ${in_shadow} REPLACE "(p->d - p->d_error) * scale" BY "(p->d - 0.0 * p->d_error) * scale")
 occ_caught_by(no_offset_error shadow_planes exact "inward by [-+.0-9e]+ u.d.")
-occ_plant(no_eye_doubt ${in_shadow} REPLACE "8.0 * EPS * occ_dot_magnitude(n, camera->doubt)" BY "0.0")
+occ_plant(no_eye_doubt ${in_shadow} REPLACE "8.0 * EPS * dot_magnitude_quad(p->n, doubt)" BY "0.0 * doubt[0]")
 occ_caught_by(no_eye_doubt camera_planes silhouettes "camera [0-9]+: silhouette [0-9]+ holds the eye")
 occ_plant(no_origin_doubt ${in_camera} REPLACE "camera->doubt[j] += fabs(camera->eye[j])" BY "camera->doubt[j] += 0.0")
 occ_caught_by(no_origin_doubt camera_planes frusta "${frustum_plane} inward")
-occ_plant(no_sight_error ${in_shadow} REPLACE "!(margin > error)" BY "!(margin > 0.0 * error)")
+occ_plant(no_sight_error ${in_shadow} REPLACE "above_quad(margin, error)" BY "above_quad(margin, 0.0 * error)")
 occ_caught_by(no_sight_error shadow "by hand" "Assertion 'oracle_box[^']* == ORACLE_HIDDEN' failed")
 occ_plant(no_plane_error ${in_camera} REPLACE "(d + error) * scale" BY "(d + 0.0 * error) * scale")
 occ_caught_by(no_plane_error camera_planes frusta "${frustum_plane} inward")
@@ -63,30 +63,31 @@ if(occ_opencl)
 endif()
 occ_plant(swapped_outside ${in_kernels} REPLACE "((s) + (r) < -(e))" BY "((s) + (r) <= -(e))" COMPILE backend_plain.c)
 occ_caught_by(swapped_outside backend_edges host "plain one by one: ${decided_otherwise}")
-occ_plant(swapped_sight ${in_shadow} REPLACE "!(margin > error)" BY "!(margin >= error)")
+occ_plant(swapped_sight ${in_shadow} REPLACE "above_quad(margin, error)" BY "~above_quad(error, margin)")
 occ_caught_by(swapped_sight shadow "by hand" "Assertion 'hides_from.5, 0, 0, &sheet, &left.' failed")
-occ_plant(swapped_side ${in_shadow} REPLACE "f->facing = side > 0.0" BY "f->facing = side <= 0.0")
+occ_plant(swapped_side ${in_shadow} REPLACE "s->facing = where_quad(ahead," BY "s->facing = where_quad(~ahead,")
 occ_caught_by(swapped_side shadow "by hand" "Assertion 'hides_from.5, 0, 0, &sheet, &left.' failed")
 
 # --- an occluder grown by one part in a million --------------------------------------------------
-occ_plant(grown ${in_shadow} REPLACE "s->axis[k][j] = (double)box->axis[k][j]"
-    BY "s->axis[k][j] = (double)box->axis[k][j] * 1.000001")
+occ_plant(grown ${in_shadow} REPLACE "make_quad(a, b, c, c);"
+    BY "make_quad(a, b, c, c) * 1.000001;")
 occ_caught_by(grown shadow "by hand" "Assertion 'hides_from.1001, 0, 0, &wall, &by_its_face. ==")
 occ_caught_by(grown shadow_planes exact "a normal is off by [.0-9]+ u")
 
 # --- a missing test of near faces, edges, or what the near plane cuts away -----------------------
-occ_plant(no_faces ${in_shadow} REPLACE "seen[k].sign && !add_face" BY "seen[k].sign > 1 && !add_face")
+occ_plant(no_faces ${in_shadow} REPLACE "add_planes(shadow, &faces, seen, 3)" BY "add_planes(shadow, &faces, seen & 0u, 3)")
 occ_caught_by(no_faces shadow duels "${can_be_seen}")
 if(TARGET test_gl_scenes)
     occ_caught_by(no_faces gl_scenes city "city, frame 0, method 0: [0-9]+ objects are left out that OpenGL")
 endif()
-occ_plant(no_edge ${in_shadow} REPLACE "i < 4; i++) {\n            int turn" BY "i < 3; i++) {\n            int turn")
+occ_plant(no_edge ${in_shadow} REPLACE "lanes[k], 4)" BY "lanes[k], 3)")
 occ_caught_by(no_edge shadow duels "${can_be_seen}")
 set(past_near "point [0-9]+ of object [0-9]+ can be seen")
-occ_plant(no_near_plane ${in_shadow} REPLACE "if (!survives_near(&s, camera, seen)) return false"
-    BY "(void)survives_near(&s, camera, seen)")
+occ_plant(no_near_plane ${in_shadow} REPLACE "if (!seen || !survives_near(&s, camera, seen)) return false"
+    BY "(void)survives_near(&s, camera, seen);
+    if (!seen) return false")
 occ_caught_by(no_near_plane near "at random" "${past_near}")
-occ_plant(no_near_reach ${in_shadow} REPLACE "cutter[3] - reach > size" BY "cutter[3] - 0.0 * reach > size")
+occ_plant(no_near_reach ${in_shadow} REPLACE "(reach[0] + reach[1] + reach[2]) >" BY "0.0 * reach[0] >")
 occ_caught_by(no_near_reach near "at random" "${past_near}")
 occ_plant(no_near_corner ${in_shadow} REPLACE "int c = 0; c < 4; c++" BY "int c = 0; c < 3; c++")
 occ_caught_by(no_near_corner near "at random" "${past_near}")
@@ -128,7 +129,7 @@ if(TARGET test_property)
     occ_caught_by(no_low_half regressions host "eye_low_half_dropped.obs")
     occ_caught_by(owner_scalar regressions host "node_owners_forgotten.obs")
 
-    occ_plant(unmirrored ${in_shadow} REPLACE "(volume < 0.0) != (side > 0.0)" BY "(volume < -1e300) != (side > 0.0)")
+    occ_plant(unmirrored ${in_shadow} REPLACE "above_quad(zero, splat_quad(depth[0]))" BY "above_quad(zero, zero)")
     occ_caught_by(unmirrored property host "world [0-9]+: object [0-9]+ is left out, but seen")
     occ_caught_by(unmirrored regressions host "mirrored_axes_ignored.obs")
     occ_caught_by(unmirrored metamorphic judged "pairwise, mirrored, camera [0-3]: object [0-9]+ is")
@@ -232,12 +233,12 @@ if(TARGET test_tolerance)
     set(widened "world [0-9]+: object [0-9]+ is hidden, but seen past the widened occluders")
     occ_plant(tolerance_on_each_side ${in_shadow} REPLACE "double by = 0.5 * tolerance" BY "double by = tolerance")
     occ_caught_by(tolerance_on_each_side tolerance random "${widened}")
-    occ_plant(tolerance_of_faces ${in_shadow} REPLACE "if (!add_silhouettes(shadow, &s, camera, seen)) return false"
-        BY "if (!add_silhouettes(shadow, &s, camera, seen)) return false;
-    for (int i = 0; i < 9; i++) seen[i / 3].center[i % 3] *= 1.0 - 0.5 * camera->tolerance")
+    occ_plant(tolerance_of_faces ${in_shadow} REPLACE "if (!add_silhouettes(shadow, &s, camera)) return false"
+        BY "if (!add_silhouettes(shadow, &s, camera)) return false;
+    for (int j = 0; j < 3; j++) s.middle[j] *= 1.0 - 0.5 * camera->tolerance")
     occ_caught_by(tolerance_of_faces tolerance random "${widened}")
-    occ_plant(tolerance_of_points ${in_shadow} REPLACE "fmax(1.0 + occ_dot(unit[i], unit[k]), 0.0)"
-        BY "fmax(4.0 + occ_dot(unit[i], unit[k]), 0.0)")
+    occ_plant(tolerance_of_points ${in_shadow} REPLACE "fmax(1.0 + occ_dot(t->unit, all[o].unit), 0.0)"
+        BY "fmax(4.0 + occ_dot(t->unit, all[o].unit), 0.0)")
     occ_caught_by(tolerance_of_points tolerance random "world [0-9]+: object [0-9]+ is hidden, but seen far from all outlines")
 endif()
 
