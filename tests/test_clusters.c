@@ -180,7 +180,7 @@ END_TEST
 START_TEST(two_heaps_of_triangles_are_not_mixed)
 {
     for (uint32_t i = 0; i < 40; i++)
-        put_triangle(i, i % 2 ? 1000.0f : 0.0f, (float)(i / 2), 0, 1);
+        put_triangle(i, i % 2 ? 1000.0f : 0.0f, (float)i, 0, 1);
     occ_soup soup = loose(40);
     split(&soup, &(occ_clusters_desc){.max_triangles = 30});
     ck_assert_uint_eq(found.count, 2);
@@ -207,7 +207,7 @@ END_TEST
 START_TEST(growing_triangles_are_split_in_time)
 {
     for (uint32_t i = 0; i < MOST; i++) {
-        float x = ldexpf(1.0f + (float)(i % 400) / 400.0f, (int)(i / 400) - 20);
+        float x = ldexpf(1.0f + (float)(i % 400) / 400.0f, (int)(i / 400u) - 20);
         put_triangle(i, x, 0, 0, x);
     }
     occ_soup soup = loose(MOST);
@@ -230,8 +230,10 @@ END_TEST
 START_TEST(clusters_of_a_floor_are_compact)
 {
     enum { SIDE = 64 };
-    for (uint32_t i = 0; i < SIDE * SIDE; i++)
-        put_triangle(i, (float)(i % SIDE), (float)(i / SIDE), 0, 1);
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        uint32_t row = i / SIDE;
+        put_triangle(i, (float)(i % SIDE), (float)row, 0, 1);
+    }
     occ_soup soup = loose(SIDE * SIDE);
     split(&soup, &(occ_clusters_desc){.max_triangles = 64});
     for (uint32_t i = 0; i < found.count; i++) {

@@ -262,7 +262,7 @@ START_TEST(bad_matrices_and_boxes_are_refused)
     check_refused(model, OCC_ERROR_INVALID_ARGUMENT, "last row");
     model[7] = 0.0f;
     model[13] = NAN;
-    check_refused(model, OCC_ERROR_NOT_FINITE, "not finite");
+    check_refused(model, OCC_ERROR_NOT_FINITE, "the matrix: number 13 is nan");
     mesh.at[4][2] = INFINITY;
     check_refused(still, OCC_ERROR_NOT_FINITE, "vertex 4 of triangle 1");
     make_cube();

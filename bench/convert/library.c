@@ -25,12 +25,6 @@ bool library_succeeded(occ_result result, const char *what)
     return false;
 }
 
-bool library_out_of_memory(void)
-{
-    fputs("occlude-bench: not enough memory\n", stderr);
-    return false;
-}
-
 occ_soup library_soup(const model *m, const uint32_t (*corners)[3], uint32_t count)
 {
     return (occ_soup){.positions = m->positions[0],

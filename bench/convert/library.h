@@ -8,6 +8,7 @@
 #include "model.h"
 
 #include <occlude/soup.h>
+#include <stdio.h>
 
 /// Reports under the label that progress_begin() was given with LIBRARY_STEPS.
 occ_soup_work library_work(void);
@@ -17,7 +18,11 @@ enum { LIBRARY_STEPS = 1000 };
 bool library_succeeded(occ_result result, const char *what);
 
 /// "not enough memory", on standard error. False.
-bool library_out_of_memory(void);
+static inline bool library_out_of_memory(void)
+{
+    fputs("occlude-bench: not enough memory\n", stderr);
+    return false;
+}
 
 /// Some of a model's triangles, as their corners say.
 occ_soup library_soup(const model *m, const uint32_t (*corners)[3], uint32_t count);

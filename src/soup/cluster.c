@@ -247,8 +247,8 @@ occ_result occ_clusters_find(const occ_soup *soup, const occ_clusters_desc *desc
                        .soup = soup,
                        .desc = desc,
                        .cutter = {.overhead = OVERHEAD * (double)most, .most = most},
-                       .order = order,
                        .first = first};
+    call.order = order;
     first[0] = 0;
     result = split_soup(&call);
     if (!result) result = occ_soup_progress(&desc->work, &hooks, 1.0);

@@ -16,14 +16,14 @@
 
 static occ_result check_model(const float *model, const occ_hooks *hooks)
 {
-    const char *complaint = NULL;
-    for (int i = 0; model && i < 16 && !complaint; i++)
-        if (!isfinite(model[i])) complaint = "the matrix has a number that is not finite";
-    if (complaint) return occ_fail(hooks, OCC_ERROR_NOT_FINITE, "%s", complaint);
-    if (!model) complaint = "the matrix is NULL";
-    if (model && (model[3] != 0.0f || model[7] != 0.0f || model[11] != 0.0f || model[15] != 1.0f))
-        complaint = "the last row of the matrix is not 0 0 0 1";
-    if (complaint) return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "%s", complaint);
+    if (!model) return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "the matrix is NULL");
+    for (int i = 0; i < 16; i++)
+        if (!isfinite(model[i]))
+            return occ_fail(hooks, OCC_ERROR_NOT_FINITE, "the matrix: number %d is %g", i,
+                            (double)model[i]);
+    if (model[3] != 0.0f || model[7] != 0.0f || model[11] != 0.0f || model[15] != 1.0f)
+        return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT,
+                        "the last row of the matrix is not 0 0 0 1");
     return OCC_SUCCESS;
 }
 
