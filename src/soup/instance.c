@@ -16,7 +16,6 @@
 
 static occ_result check_model(const float *model, const occ_hooks *hooks)
 {
-    if (!model) return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "the matrix is NULL");
     for (int i = 0; i < 16; i++)
         if (!isfinite(model[i]))
             return occ_fail(hooks, OCC_ERROR_NOT_FINITE, "the matrix: number %d is %g", i,
@@ -102,6 +101,7 @@ occ_result occ_bounds_of_instance(const occ_soup *placed, const float *model, co
     occ_frame3 frame;
     occ_result result = occ_soup_hooks(work, &hooks);
     if (result) return result;
+    if (!model) return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "the matrix is NULL");
     if (!bounds || !box) return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "a box is NULL");
     result = occ_box_check(bounds);
     if (result) return occ_fail(&hooks, result, "the bounds of the mesh have a bad number");
@@ -227,6 +227,7 @@ occ_result occ_inner_of_instance(const occ_soup *placed, const float *model,
     taken.max_hole = 0.0f; // what a flood found is no longer known at another place
     occ_result result = occ_soup_hooks(&taken.work, &hooks);
     if (result) return result;
+    if (!model) return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "the matrix is NULL");
     if (!carried_count || (count && (!boxes || !carried)))
         return occ_fail(&hooks, OCC_ERROR_INVALID_ARGUMENT, "boxes or carried is NULL");
     if (count >= UINT32_MAX) return occ_fail(&hooks, OCC_ERROR_LIMIT, "%zu boxes", count);
