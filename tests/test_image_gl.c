@@ -47,7 +47,8 @@ static void open_stage(double away, bool one_sided)
 {
     const image_gl_options options = {WIDTH, HEIGHT, one_sided};
     make_model(away);
-    ck_assert(division_make(&m, 8, &d));
+    const division_options dividing = {.most = 8};
+    ck_assert(division_make(&m, &dividing, &d));
     ck_assert(image_parts_make(&m, &d, &parts));
     ck_assert(image_pixels_create(&picture, WIDTH, HEIGHT));
     objects = malloc(parts.object_count * sizeof *objects);
