@@ -69,32 +69,30 @@ typedef struct sheet_frame {
     double low[3], high[3];
 } sheet_frame;
 
-static double volume_of(const double a[3], const double b[3], const double c[3])
-{
-    double normal[3];
-    occ_cross(a, b, normal);
-    return occ_dot(normal, c);
-}
-
 // Sets how far the corners reach, seen from a point. False if the directions span nothing.
 static bool measure(sheet_frame *frame, const occ_sheet *sheet, const float from[3])
 {
-    const double *a = frame->axis[0], *b = frame->axis[1], *c = frame->axis[2];
-    double whole = volume_of(a, b, c);
-    if (!(fabs(whole) > 0.0)) return false;
+    double dual[3][3];
     for (int k = 0; k < 3; k++) {
+        occ_cross(frame->axis[(k + 1) % 3], frame->axis[(k + 2) % 3], dual[k]);
         frame->low[k] = INFINITY;
         frame->high[k] = -INFINITY;
     }
+    double volume = occ_dot(dual[2], frame->axis[2]);
+    if (!(fabs(volume) > 0.0)) return false;
     for (uint32_t i = 0; i < sheet->corner_count; i++) {
         double d[3];
         corner_from(sheet, i, from, d);
-        double at[3] = {volume_of(d, b, c) / whole, volume_of(a, d, c) / whole,
-                        volume_of(a, b, d) / whole};
         for (int k = 0; k < 3; k++) {
-            frame->low[k] = at[k] < frame->low[k] ? at[k] : frame->low[k];
-            frame->high[k] = at[k] > frame->high[k] ? at[k] : frame->high[k];
+            double at = occ_dot(dual[k], d);
+            if (volume < 0.0) at = -at;
+            frame->low[k] = at < frame->low[k] ? at : frame->low[k];
+            frame->high[k] = at > frame->high[k] ? at : frame->high[k];
         }
+    }
+    for (int k = 0; k < 3; k++) {
+        frame->low[k] /= fabs(volume);
+        frame->high[k] /= fabs(volume);
     }
     return true;
 }
@@ -119,9 +117,9 @@ static void edge_of(const occ_sheet *sheet, uint32_t i, double edge[3])
     corner_from(sheet, next, sheet->corner[i], edge);
 }
 
-// The smallest parallelogram around the corners that has an edge along one of the sheet's, and the
-// other at a right angle or along another one. (The smallest of all is among them.) False if the
-// sheet is too thin for that.
+// The smallest parallelogram around the corners among those that have an edge along one of the
+// sheet's, and the other at a right angle or along the next one. False if the sheet is too thin for
+// that.
 static bool find_frame(sheet_frame *best, const occ_sheet *sheet)
 {
     sheet_frame frame;
@@ -140,14 +138,11 @@ static bool find_frame(sheet_frame *best, const occ_sheet *sheet)
         edge_of(sheet, i, frame.axis[0]);
         occ_cross(frame.axis[2], frame.axis[0], frame.axis[1]);
         offer(best, &least, &frame, sheet);
-        for (uint32_t k = i + 1; k < sheet->corner_count; k++) {
-            double turn[3];
-            edge_of(sheet, k, frame.axis[1]);
-            occ_cross(frame.axis[0], frame.axis[1], turn);
-            double sizes = occ_dot(frame.axis[0], frame.axis[0]);
-            sizes *= occ_dot(frame.axis[1], frame.axis[1]);
-            if (occ_dot(turn, turn) > sizes * 0x1p-20) offer(best, &least, &frame, sheet);
-        }
+        double turn[3], sizes = occ_dot(frame.axis[0], frame.axis[0]);
+        edge_of(sheet, i + 1 < sheet->corner_count ? i + 1 : 0, frame.axis[1]);
+        occ_cross(frame.axis[0], frame.axis[1], turn);
+        sizes *= occ_dot(frame.axis[1], frame.axis[1]);
+        if (occ_dot(turn, turn) > sizes * 0x1p-20) offer(best, &least, &frame, sheet);
     }
     return least < INFINITY;
 }

@@ -18,10 +18,12 @@ static uint32_t first_free(void)
     return kit_victim->attached_count;
 }
 
-// Lets two occluders change rows, with all that belongs to them.
+// Lets two occluders change rows, with all that belongs to them. Both are boxes from there on.
 static void exchange(uint32_t i, uint32_t j)
 {
     occ_occluder_rows *r = rows();
+    occ_scene_drop_sheet(kit_victim, i);
+    occ_scene_drop_sheet(kit_victim, j);
     occ_box box = r->boxes[i];
     uint32_t slot = r->slot_of[i], owner = r->owner_of[i];
     r->boxes[i] = r->boxes[j];
