@@ -223,7 +223,10 @@ START_TEST(every_pixel_shows_the_triangle_that_a_ray_meets_first)
     open_stage(away, one_sided);
     check_frame(eye, forward, one_sided, parts.object_count);
     check_frame(middle, askew, one_sided, parts.object_count);
-    check_frame(eye, forward, one_sided, parts.object_count * 2 / 3);
+    size_t kept = 0; // two of three: see-through objects are the last ones
+    for (uint32_t i = 0; i < parts.object_count; i++)
+        if (i % 3) objects[kept++] = i;
+    check_frame(eye, forward, one_sided, kept);
     close_stage();
 }
 END_TEST
