@@ -80,8 +80,8 @@ typedef struct occ_sheet_fault {
 
 /// Checks sheets anew, as found by occ_sheets_find() or made otherwise: OCC_SUCCESS if each is
 /// proven to lie in the surface, OCC_ERROR_NOT_INSIDE if not. Of a found sheet it reads `sheet`
-/// alone, of the desc `work`, `sides`, `see_through` and, with `labels_apart`, `labels`. `fault` may
-/// be NULL.
+/// alone, of the desc `work`, `sides`, `see_through` and, with `labels_apart`, `labels`. `fault`
+/// may be NULL.
 OCC_API OCC_NODISCARD occ_result occ_verify_sheets(const occ_soup *soup,
                                                    const occ_found_sheet *sheets, size_t count,
                                                    const occ_sheets_desc *desc,

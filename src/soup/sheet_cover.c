@@ -20,7 +20,7 @@ double occ_region_area(const occ_region *r)
 
 void occ_region_cut(occ_region *region, const double a[2], const double b[2])
 {
-    double height[OCC_REGION_CORNERS];
+    double height[OCC_REGION_CORNERS] = {0.0};
     occ_region in = *region;
     uint32_t count = 0;
     for (uint32_t i = 0; i < in.count; i++)

@@ -227,7 +227,11 @@ static int by_gain(const void *a, const void *b)
     const occ_found_sheet *p = a, *q = b;
     if (p->gain != q->gain) return p->gain > q->gain ? -1 : 1;
     if (p->triangle != q->triangle) return p->triangle < q->triangle ? -1 : 1;
-    return memcmp(&p->sheet, &q->sheet, sizeof p->sheet);
+    for (uint32_t i = 0; i < 3 * OCC_SHEET_CORNERS; i++) {
+        float at = p->sheet.corner[i / 3][i % 3], other = q->sheet.corner[i / 3][i % 3];
+        if (at != other) return at < other ? -1 : 1;
+    }
+    return 0;
 }
 
 static occ_result cover_planes(find_call *call)

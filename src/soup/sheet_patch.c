@@ -232,7 +232,8 @@ static occ_result grow_patches(patches *ps)
 occ_result occ_patches_find(occ_hooks *hooks, const occ_surface *surface,
                             const occ_sheets_desc *desc, bool *used, occ_array *found)
 {
-    patches ps = {.hooks = hooks, .surface = surface, .desc = desc, .used = used, .found = found};
+    patches ps = {.hooks = hooks, .surface = surface, .desc = desc, .found = found};
+    ps.used = used;
     size_t bytes = surface->mesh.triangles * sizeof *ps.beside;
     ps.beside = occ_alloc(hooks, bytes);
     occ_result result = ps.beside ? occ_corner_index_build(hooks, &surface->mesh, &ps.index)

@@ -308,7 +308,8 @@ bool occ_prove_by_corners(const occ_surface *s, const occ_sheets_desc *desc,
                           occ_sheet_basis *basis)
 {
     filling f;
-    uint32_t vertex[OCC_SHEET_CORNERS], n = sheet->corner_count;
+    memset(&f, 0xff, sizeof f); // nothing is filled
+    uint32_t vertex[OCC_SHEET_CORNERS] = {0}, n = sheet->corner_count;
     uint32_t part[2 * OCC_SHEET_CORNERS][2] = {{0, n - 1}}, parts_left = 1;
     *basis = (occ_sheet_basis){.triangle = UINT32_MAX};
     for (uint32_t i = 0; i < n; i++) {

@@ -185,7 +185,7 @@ static uint32_t make_hull(const spot *in, uint32_t count, spot *out)
             const spot *next = &in[half ? count - 1 - i : i];
             while (n >= start + 2 && occ_turn(out[n - 2].at, out[n - 1].at, next->at) <= 0)
                 n--;
-            if (n > start && !memcmp(out[n - 1].at, next->at, sizeof next->at)) continue;
+            if (n > start && !by_position(&out[n - 1], next)) continue;
             out[n++] = *next;
         }
         if (n) n--; // it begins the other half
