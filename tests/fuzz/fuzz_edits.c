@@ -17,13 +17,16 @@ typedef struct listed_object {
 
 typedef struct listed_occluder {
     occ_occluder handle;
-    occ_box box;
+    bool is_sheet;
+    occ_box box; // if it is none
+    occ_sheet sheet;
     uint32_t owner; // index into the list, or MOST
     bool alive;
 } listed_occluder;
 
 typedef struct list {
     fuzz_bytes from;
+    bool sheets; // of occluders, the next one is a sheet
     occ_scene *scene;
     occ_view *view;
     uint32_t object_count, occluder_count;
@@ -48,6 +51,38 @@ static occ_box read_box(fuzz_bytes *from)
     occ_box box;
     memcpy(&box, numbers, sizeof box);
     return box;
+}
+
+// Small whole numbers in a few planes, or any floats at all; too few or too many corners as well.
+static occ_sheet read_sheet(fuzz_bytes *from)
+{
+    occ_sheet sheet;
+    uint8_t kind = fuzz_byte(from);
+    const unsigned sides = kind >> 4 & 1u;
+    memset(&sheet, 0, sizeof sheet);
+    sheet.corner_count = kind & 15u;
+    memcpy(&sheet.sides, &sides, sizeof sheet.sides);
+    for (uint32_t i = 0; i < sheet.corner_count && i < OCC_SHEET_CORNERS; i++)
+        for (int j = 0; j < 3; j++) {
+            float *at = &sheet.corner[i][j];
+            *at = kind >> 5 == 7 ? fuzz_float(from) : (float)(int8_t)fuzz_byte(from) / 4.0f;
+            if (j == kind >> 5 && i) *at = sheet.corner[0][j];
+        }
+    return sheet;
+}
+
+// What the library should say of it.
+static occ_result judge_sheet(const occ_sheet *sheet)
+{
+    occ_result result = OCC_SUCCESS;
+    if (sheet->corner_count < 3 || sheet->corner_count > 8) return OCC_ERROR_INVALID_ARGUMENT;
+    for (uint32_t i = 0; i < sheet->corner_count; i++)
+        for (int j = 0; j < 3; j++) {
+            double size = fabs((double)sheet->corner[i][j]);
+            if (!(size < HUGE_VAL)) return OCC_ERROR_NOT_FINITE;
+            if (size > (double)OCC_MAX_COORDINATE) result = OCC_ERROR_OUT_OF_RANGE;
+        }
+    return result;
 }
 
 // What the library should say of a box, from the header's words.
@@ -101,30 +136,51 @@ static void remove_object(list *l)
         if (l->occluders[k].owner == i) l->occluders[k].alive = false;
 }
 
+// A box or a sheet; and what the library should say of it.
+static occ_result read_shape(list *l, listed_occluder *occluder)
+{
+    if (occluder->is_sheet) {
+        occluder->sheet = read_sheet(&l->from);
+        return judge_sheet(&occluder->sheet);
+    }
+    occluder->box = read_box(&l->from);
+    return judge(&occluder->box);
+}
+
 static void add_occluder(list *l)
 {
     uint32_t owner = fuzz_byte(&l->from);
-    occ_box box = read_box(&l->from);
+    listed_occluder made = {.is_sheet = l->sheets, .alive = true};
+    occ_result expected = read_shape(l, &made);
     if (l->occluder_count == MOST) return;
-    owner = owner < l->object_count ? owner : MOST;
-    occ_object of = owner < MOST ? l->objects[owner].handle : (occ_object){0, 0};
-    bool good = !judge(&box) && (owner == MOST || l->objects[owner].alive);
-    occ_occluder handle;
-    occ_result result = occ_scene_add_occluder(l->scene, &box, of, &handle);
-    FUZZ_CHECK(!result == good);
-    if (result) return;
-    l->occluders[l->occluder_count++] = (listed_occluder){handle, box, owner, true};
+    made.owner = owner < l->object_count ? owner : MOST;
+    occ_object of = made.owner < MOST ? l->objects[owner].handle : (occ_object){0, 0};
+    if (!expected && made.owner < MOST && !l->objects[owner].alive) {
+        expected = OCC_ERROR_STALE_HANDLE;
+    }
+    occ_result result = made.is_sheet
+                            ? occ_scene_add_sheet(l->scene, &made.sheet, of, &made.handle)
+                            : occ_scene_add_occluder(l->scene, &made.box, of, &made.handle);
+    FUZZ_CHECK(!result == !expected);
+    if (!result) l->occluders[l->occluder_count++] = made;
 }
 
 static void move_occluder(list *l)
 {
     uint32_t i = fuzz_byte(&l->from);
-    occ_box box = read_box(&l->from);
+    listed_occluder moved = {.is_sheet = l->sheets};
+    occ_result expected = read_shape(l, &moved);
     if (i >= l->occluder_count) return;
     listed_occluder *occluder = &l->occluders[i];
-    occ_result result = occ_scene_move_occluder(l->scene, occluder->handle, &box);
-    FUZZ_CHECK(!result == (!judge(&box) && occluder->alive));
-    if (!result) occluder->box = box;
+    if (!expected && !occluder->alive) expected = OCC_ERROR_STALE_HANDLE;
+    occ_result result = moved.is_sheet
+                            ? occ_scene_move_sheet(l->scene, occluder->handle, &moved.sheet)
+                            : occ_scene_move_occluder(l->scene, occluder->handle, &moved.box);
+    FUZZ_CHECK(!result == !expected);
+    if (result) return;
+    occluder->is_sheet = moved.is_sheet;
+    occluder->box = moved.box;
+    occluder->sheet = moved.sheet;
 }
 
 static void remove_occluder(list *l)
@@ -153,11 +209,16 @@ static void check_list(const list *l)
     for (uint32_t i = 0; i < l->occluder_count; i++) {
         const listed_occluder *occluder = &l->occluders[i];
         occ_object owner, of = {0, 0};
-        occ_result result = occ_scene_occluder_box(l->scene, occluder->handle, &box, &owner);
+        occ_sheet sheet;
+        occ_result result =
+            occluder->is_sheet
+                ? occ_scene_occluder_sheet(l->scene, occluder->handle, &sheet, &owner)
+                : occ_scene_occluder_box(l->scene, occluder->handle, &box, &owner);
         FUZZ_CHECK(result == (occluder->alive ? OCC_SUCCESS : OCC_ERROR_STALE_HANDLE));
         if (!occluder->alive) continue;
         if (occluder->owner < MOST) of = l->objects[occluder->owner].handle;
-        FUZZ_CHECK(fuzz_same_bits(&box, &occluder->box, sizeof box));
+        FUZZ_CHECK(occluder->is_sheet ? fuzz_same_bits(&sheet, &occluder->sheet, sizeof sheet)
+                                      : fuzz_same_bits(&box, &occluder->box, sizeof box));
         FUZZ_CHECK(owner.index == of.index && owner.generation == of.generation);
         occluders++;
     }
@@ -191,7 +252,9 @@ static occ_scene *build_anew(const list *l)
         if (occluder->owner < MOST) {
             owner = handles[occ_object_slot(l->objects[occluder->owner].handle)];
         }
-        FUZZ_CHECK(!occ_scene_add_occluder(scene, &occluder->box, owner, NULL));
+        FUZZ_CHECK(!(occluder->is_sheet
+                         ? occ_scene_add_sheet(scene, &occluder->sheet, owner, NULL)
+                         : occ_scene_add_occluder(scene, &occluder->box, owner, NULL)));
     }
     for (uint32_t s = 0; s < occ_scene_slot_count(l->scene); s++)
         if (at[s] == MOST) FUZZ_CHECK(!occ_scene_remove(scene, handles[s]));
@@ -241,8 +304,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     FUZZ_CHECK(l);
     l->from = (fuzz_bytes){data, size};
     FUZZ_CHECK(!occ_scene_create(&desc, &l->scene) && !occ_view_create(&plain, &l->view));
-    for (int n = 0; n < OPERATIONS && l->from.left; n++)
-        operations[fuzz_byte(&l->from) % 16](l);
+    for (int n = 0; n < OPERATIONS && l->from.left; n++) {
+        uint8_t operation = fuzz_byte(&l->from);
+        l->sheets = operation >= 0x80;
+        operations[operation % 16](l);
+    }
     commit(l);
     occ_view_destroy(l->view);
     occ_scene_destroy(l->scene);
