@@ -26,7 +26,8 @@ static bool add_boxes(loaded_scene *l)
     bool good = boxes && owners;
     for (size_t i = 0; good && i < count; i++) {
         boxes[i] = l->file->occluders[i].box;
-        owners[i] = l->objects[l->file->occluders[i].owner];
+        uint32_t owner = l->file->occluders[i].owner;
+        owners[i] = owner == OBS_NO_OWNER ? (occ_object){0} : l->objects[owner];
     }
     good = good ? loaded_succeeded(
                       occ_scene_add_occluders(l->scene, boxes, owners, count, l->occluders),
@@ -45,7 +46,8 @@ static bool add_sheets(loaded_scene *l)
     bool good = sheets && owners;
     for (size_t i = 0; good && i < count; i++) {
         sheets[i] = l->file->sheets[i].sheet;
-        owners[i] = l->objects[l->file->sheets[i].owner];
+        uint32_t owner = l->file->sheets[i].owner;
+        owners[i] = owner == OBS_NO_OWNER ? (occ_object){0} : l->objects[owner];
     }
     good = good ? loaded_succeeded(occ_scene_add_sheets(l->scene, sheets, owners, count,
                                                         l->occluders + l->file->occluder_count),

@@ -20,8 +20,10 @@ static occ_result fill_scene(const obs_scene *file, const build_arrays *arrays,
     occ_result result =
         occ_scene_add_many(build->scene, file->objects, file->object_count, arrays->objects);
     if (result) return result;
-    for (uint32_t i = 0; i < obs_occluder_total(file); i++)
-        arrays->owners[i] = arrays->objects[obs_occluder_owner(file, i)];
+    for (uint32_t i = 0; i < obs_occluder_total(file); i++) {
+        uint32_t owner = obs_occluder_owner(file, i);
+        arrays->owners[i] = owner == OBS_NO_OWNER ? (occ_object){0} : arrays->objects[owner];
+    }
     build->step = "adding the occluders";
     uint32_t boxes = file->occluder_count;
     result = occ_scene_add_occluders(build->scene, arrays->boxes, arrays->owners, boxes, NULL);

@@ -95,6 +95,9 @@ static const char *set_value(const options_entry *entry, char *text)
     } else if (entry->kind == OPTIONS_COUNT) {
         if (!options_number(text, 1, UINT32_MAX, &number)) return "expected a number from 1";
         *(uint32_t *)entry->value = (uint32_t)number;
+    } else if (entry->kind == OPTIONS_MOST) {
+        if (!options_number(text, 0, UINT32_MAX, &number)) return "expected a number";
+        *(uint32_t *)entry->value = (uint32_t)number;
     } else if (!parse_real(text, entry->value)) {
         return "expected a number that is not negative";
     }

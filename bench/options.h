@@ -12,6 +12,7 @@ typedef enum options_kind {
     OPTIONS_FLAG,  ///< No value; a bool that becomes true.
     OPTIONS_TEXT,  ///< A const char *, into argv.
     OPTIONS_COUNT, ///< A uint32_t, at least 1.
+    OPTIONS_MOST,  ///< A uint32_t, 0 included: the most that there may be.
     OPTIONS_REAL   ///< A double, finite and not negative.
 } options_kind;
 

@@ -28,7 +28,7 @@ static model boxes_and_glass(uint32_t boxes)
 static obs_scene scene_of(const division *d)
 {
     obs_scene scene = {0};
-    for (uint32_t i = 0; i < d->objects.count; i++)
+    for (uint32_t i = 0; i < d->count; i++)
         ck_assert_uint_eq(obs_add_object(&scene, &d->boxes[i]), i);
     return scene;
 }
@@ -64,7 +64,8 @@ START_TEST(every_triangle_has_one_place_in_the_object_that_bounds_it)
     static const uint32_t most[] = {2, 9, 32};
     uint32_t *times = calloc(m.triangle_count, sizeof *times);
     ck_assert_ptr_nonnull(times);
-    ck_assert(division_make(&m, most[_i], &d));
+    const division_options options = {.most = most[_i]};
+    ck_assert(division_make(&m, &options, &d));
     obs_scene scene = scene_of(&d);
     ck_assert(image_parts_agree(&d, &scene, "scene", "model"));
     ck_assert(image_parts_make(&m, &d, &parts));
@@ -75,7 +76,7 @@ START_TEST(every_triangle_has_one_place_in_the_object_that_bounds_it)
     for (uint32_t i = 0; i < parts.object_count; i++)
         for (uint32_t place = parts.first[i]; place < parts.first[i + 1]; place++) {
             check_place(&m, &parts, &scene, i, place);
-            ck_assert_uint_eq(d.objects.object_of[parts.triangles[place]], i);
+            ck_assert_uint_eq(d.object_of[parts.triangles[place]], i);
             times[parts.triangles[place]]++;
         }
     for (uint32_t t = 0; t < m.triangle_count; t++)
@@ -92,7 +93,8 @@ START_TEST(scene_of_another_division_is_refused)
 {
     model m = boxes_and_glass(40);
     division d, other;
-    ck_assert(division_make(&m, 32, &d) && division_make(&m, 8, &other));
+    const division_options options = {.most = 32}, finer = {.most = 8};
+    ck_assert(division_make(&m, &options, &d) && division_make(&m, &finer, &other));
     obs_scene scene = scene_of(&d);
     ck_assert(image_parts_agree(&d, &scene, "scene", "model"));
     ck_assert(!image_parts_agree(&other, &scene, "scene", "model"));

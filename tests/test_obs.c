@@ -139,6 +139,37 @@ START_TEST(what_is_written_is_read)
 }
 END_TEST
 
+START_TEST(occluder_of_no_object_needs_version_2)
+{
+    enum { GROWN = PLAIN + 4, OWNER = HEADER + 4 + 2 * BOX + BOX };
+    static const uint8_t none[4] = {0xff, 0xff, 0xff, 0xff};
+    uint8_t bytes[GROWN], again[GROWN];
+    obs_scene scene = some_scene(false), copy;
+    scene.occluders[0].owner = OBS_NO_OWNER;
+    get_bytes(&scene, bytes, GROWN);
+    ck_assert_int_eq(bytes[3], '2');
+    ck_assert_mem_eq(bytes + OWNER, none, 4);
+    ck_assert(obs_parse(bytes, GROWN, NULL, &copy));
+    ck_assert_uint_eq(obs_occluder_owner(&copy, 0), OBS_NO_OWNER);
+    get_bytes(&copy, again, GROWN);
+    ck_assert_mem_eq(again, bytes, GROWN);
+    obs_free(&copy);
+    // Version 1 knows no such thing.
+    scene.occluders[0].owner = 1;
+    get_bytes(&scene, bytes, PLAIN);
+    memset(bytes + OWNER - 4, 0xff, 4);
+    ck_assert(!obs_parse(bytes, PLAIN, NULL, &copy));
+    obs_free(&scene);
+    // A sheet may be of no object as well.
+    uint8_t whole[SIZE];
+    make_file(whole);
+    memset(whole + FIRST + 104, 0xff, 4);
+    ck_assert(obs_parse(whole, SIZE, NULL, &copy));
+    ck_assert_uint_eq(obs_occluder_owner(&copy, 1), OBS_NO_OWNER);
+    obs_free(&copy);
+}
+END_TEST
+
 START_TEST(file_of_any_other_length_is_refused)
 {
     uint8_t bytes[SIZE + 1] = {0};
@@ -229,6 +260,7 @@ int main(void)
     tcase_add_test(format, scene_without_sheets_is_of_version_1);
     tcase_add_test(format, scene_with_sheets_is_of_version_2);
     tcase_add_test(format, what_is_written_is_read);
+    tcase_add_test(format, occluder_of_no_object_needs_version_2);
     suite_add_tcase(suite, format);
     TCase *refusals = tcase_create("refusals");
     tcase_add_test(refusals, file_of_any_other_length_is_refused);

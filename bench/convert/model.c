@@ -2,11 +2,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "model.h"
 
+#include "model_import.h"
+
 #include <assimp/GltfMaterial.h>
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <errno.h>
 #include <fnmatch.h>
 #include <math.h>
@@ -180,8 +181,14 @@ static bool take_mesh(import *in, unsigned number, const transform *t)
         return false;
     }
     bool see_through = is_see_through(in, mesh);
+    model_part *part = &in->out->parts[in->out->part_count++];
+    *part = (model_part){.mesh = number, .first = in->out->triangle_count};
+    for (int c = 0; c < 4; c++)
+        for (int r = 0; r < 4; r++)
+            part->matrix[4 * c + r] = r < 3 ? (float)t->m[r][c] : c == 3 ? 1.0f : 0.0f;
     for (unsigned f = 0; f < mesh->mNumFaces; f++)
         if (!take_face(in, mesh, t, f, see_through)) return false;
+    part->count = in->out->triangle_count - part->first;
     return true;
 }
 
@@ -195,19 +202,22 @@ static bool take_node(import *in, const struct aiNode *node, const transform *pa
     return true;
 }
 
-static size_t count_faces(const struct aiScene *scene, const struct aiNode *node)
+// Adds up what the nodes name.
+static void count_named(const struct aiScene *scene, const struct aiNode *node, size_t *faces,
+                        size_t *parts)
 {
-    size_t count = 0;
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < scene->mNumMeshes)
-            count += scene->mMeshes[node->mMeshes[i]]->mNumFaces;
+            *faces += scene->mMeshes[node->mMeshes[i]]->mNumFaces;
+    *parts += node->mNumMeshes;
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        count += count_faces(scene, node->mChildren[i]);
-    return count;
+        count_named(scene, node->mChildren[i], faces, parts);
 }
 
-static bool reserve(import *in, size_t faces)
+static bool reserve(import *in)
 {
+    size_t faces = 0, parts = 0;
+    count_named(in->scene, in->scene->mRootNode, &faces, &parts);
     if (faces > UINT32_MAX / 4) {
         fprintf(stderr, "occlude-bench: %s: %zu faces, expected at most %u\n", in->path, faces,
                 UINT32_MAX / 4);
@@ -222,7 +232,9 @@ static bool reserve(import *in, size_t faces)
     in->out->positions = calloc(3 * room, sizeof *in->out->positions);
     in->out->corners = malloc(room * sizeof *in->out->corners);
     in->out->see_through = malloc(room * sizeof *in->out->see_through);
-    if (!in->slots || !in->out->positions || !in->out->corners || !in->out->see_through) {
+    in->out->parts = calloc(parts + 1, sizeof *in->out->parts);
+    if (!in->slots || !in->out->positions || !in->out->corners || !in->out->see_through ||
+        !in->out->parts) {
         return out_of_memory(in->path);
     }
     memset(in->slots, 0xFF, slots * sizeof *in->slots);
@@ -265,6 +277,13 @@ static void set_upright(import *in)
         m->positions[v][1] = m->positions[v][2];
         m->positions[v][2] = 0.0f - y;
     }
+    for (uint32_t i = 0; i < m->part_count; i++)
+        for (int c = 0; c < 4; c++) {
+            float *column = m->parts[i].matrix + 4 * (size_t)c;
+            float y = column[1];
+            column[1] = column[2];
+            column[2] = 0.0f - y;
+        }
     measure(m);
 }
 
@@ -280,8 +299,9 @@ static bool take_scene(import *in)
 {
     static const transform identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     const struct aiNode *root = in->scene->mRootNode;
-    bool done = root && reserve(in, count_faces(in->scene, root)) && take_node(in, root, &identity);
+    bool done = root && reserve(in) && take_node(in, root, &identity);
     free(in->slots);
+    if (done && !model_take_meshes(in->scene, in->out)) return out_of_memory(in->path);
     if (done && in->out->triangle_count == 0) {
         fprintf(stderr, "occlude-bench: %s: no triangles in it\n", in->path);
         return false;
@@ -312,12 +332,4 @@ import in = {.path = path, .options = options ? options: & nothing, .scene = sce
     aiReleaseImport(scene);
     if (!done) model_free(out);
     return done;
-}
-
-void model_free(model *m)
-{
-    free(m->positions);
-    free(m->corners);
-    free(m->see_through);
-    *m = (model){0};
 }

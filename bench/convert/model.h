@@ -15,6 +15,24 @@ typedef enum model_up {
     MODEL_UP_Z = 2 ///< (x, y, z) becomes (x, z, -y).
 } model_up;
 
+/// A mesh of the file.
+typedef struct model_mesh {
+    char *name;
+    uint32_t material; ///< An index into the model's materials, or UINT32_MAX.
+    uint32_t places;   ///< How many parts it is.
+    /// Its triangles in its own coordinates, if it has several places; else 0 and NULL.
+    uint32_t vertex_count, triangle_count;
+    float (*positions)[3];
+    uint32_t (*corners)[3];
+} model_mesh;
+
+/// A mesh at one of its places: its triangles in the same order.
+typedef struct model_part {
+    uint32_t mesh;
+    uint32_t first, count; ///< Triangles of the model.
+    float matrix[16];      ///< What led there, column-major.
+} model_part;
+
 /// Triangles over shared positions. All zero is empty; model_free() it when done.
 ///
 /// Two corners are the same vertex exactly when their coordinates are the same numbers, so that
@@ -26,6 +44,13 @@ typedef struct model {
     bool *see_through;      ///< For each triangle: light may pass, so it must not occlude.
     uint32_t skipped_faces; ///< Points and lines, which were left out.
     uint32_t see_through_count;
+    model_part
+        *parts; ///< In the order of their triangles. May be none, as in a model made by hand.
+    uint32_t part_count;
+    model_mesh *meshes;
+    uint32_t mesh_count;
+    char **materials; ///< Names, as the file has them.
+    uint32_t material_count;
     model_up up;          ///< What the file's up was, or was taken to be.
     float min[3], max[3]; ///< Bounds of the positions.
 } model;
@@ -41,6 +66,12 @@ typedef struct model_options {
 /// Reads anything Assimp reads. On failure says on standard error which file and why, zeroes
 /// `out` and returns false.
 bool model_read(const char *path, const model_options *options, model *out);
+
+/// The part that a triangle is in, or NULL if the model has none.
+const model_part *model_part_of(const model *m, uint32_t triangle);
+
+/// Whether a part is one of several places of its mesh.
+bool model_is_instance(const model *m, const model_part *part);
 
 /// Frees what a model holds and zeroes it.
 void model_free(model *m);

@@ -30,7 +30,7 @@ static const char image_usage[] =
     "docs/image.md says why the comparison can be trusted.\n"
     "\n"
     "  --model MODEL      what F.obs was converted from\n"
-    "  --triangles N, --up A, --see-through LIST\n"
+    "  --triangles N, --split W, --up A, --see-through LIST\n"
     "                     as they were given to convert\n"
     "  --frames LIST      which frames, as 0,20,40 (default: all)\n"
     "  --every N          only each N-th frame (default 1)\n"
@@ -96,6 +96,7 @@ static int parse_image(int argc, char **argv, image_arguments *arguments)
     const options_entry entries[] = {
         {"--model", OPTIONS_TEXT, &arguments->model},
         {"--triangles", OPTIONS_COUNT, &arguments->division.most},
+        {"--split", OPTIONS_TEXT, &arguments->division.split},
         {"--up", OPTIONS_TEXT, &arguments->division.up},
         {"--see-through", OPTIONS_TEXT, &arguments->division.see_through},
         {"--frames", OPTIONS_TEXT, &arguments->frames},
@@ -186,7 +187,7 @@ static bool image_of_model(image_arguments *arguments, const obs_scene *scene, c
     bool good = (frames && stem) || fail(NULL, "not enough memory");
     arguments->wish.pictures = arguments->pictures ? arguments->pictures : stem;
     good = good && choose_frames(arguments, scene->frame_count, frames);
-    if (good && (good = division_make(m, arguments->division.most, &d))) {
+    if (good && (good = division_make(m, &arguments->division, &d))) {
         good = image_parts_agree(&d, scene, arguments->scene, arguments->model) &&
                (image_parts_make(m, &d, &parts) || fail(NULL, "not enough memory"));
         division_free(&d);

@@ -19,10 +19,10 @@ bool image_parts_agree(const division *d, const obs_scene *scene, const char *sc
                        const char *model_name)
 {
     static const char advice[] =
-        "give --triangles, --up and --see-through as they were given to convert";
-    if (d->objects.count != scene->object_count) {
+        "give --triangles, --split, --up and --see-through as they were given to convert";
+    if (d->count != scene->object_count) {
         fprintf(stderr, "occlude-bench: %s: %u objects, but %s divides into %u: %s\n", scene_name,
-                scene->object_count, model_name, d->objects.count, advice);
+                scene->object_count, model_name, d->count, advice);
         return false;
     }
     for (uint32_t i = 0; i < scene->object_count; i++) {
@@ -38,9 +38,8 @@ bool image_parts_agree(const division *d, const obs_scene *scene, const char *sc
 static uint32_t place_some(const model *m, const division *d, uint32_t object, bool see_through,
                            uint32_t place, image_parts *out)
 {
-    const cluster_list *objects = &d->objects;
-    for (uint32_t i = objects->first[object]; i < objects->first[object + 1]; i++) {
-        uint32_t triangle = objects->triangles[i];
+    for (uint32_t i = d->first[object]; i < d->first[object + 1]; i++) {
+        uint32_t triangle = d->triangles[i];
         if (m->see_through[triangle] != see_through) continue;
         out->triangles[place] = triangle;
         memcpy(out->corners[place++], m->corners[triangle], sizeof *out->corners);
@@ -50,8 +49,8 @@ static uint32_t place_some(const model *m, const division *d, uint32_t object, b
 
 bool image_parts_make(const model *m, const division *d, image_parts *out)
 {
-    size_t objects = d->objects.count, triangles = m->triangle_count;
-    *out = (image_parts){.object_count = d->objects.count,
+    size_t objects = d->count, triangles = m->triangle_count;
+    *out = (image_parts){.object_count = d->count,
                          .triangle_count = m->triangle_count,
                          .vertex_count = m->vertex_count,
                          .positions = (const float(*)[3])m->positions};
@@ -64,7 +63,7 @@ bool image_parts_make(const model *m, const division *d, image_parts *out)
         return false;
     }
     uint32_t place = 0;
-    for (uint32_t i = 0; i < d->objects.count; i++) {
+    for (uint32_t i = 0; i < d->count; i++) {
         out->first[i] = place;
         out->see_through[i] = place_some(m, d, i, false, place, out);
         place = place_some(m, d, i, true, out->see_through[i], out);

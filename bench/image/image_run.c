@@ -72,9 +72,11 @@ static bool cull_both(image_job *job, const obs_frame *frame, image_row *row)
 
 static void print_occluders(const image_job *job, size_t count)
 {
-    for (size_t i = 0; i < count && i < MOST_OCCLUDERS; i++)
-        fprintf(stderr, "%s %u (of object %u)", i ? "," : "", job->culprits[i],
-                obs_occluder_owner(job->loaded.file, job->culprits[i]));
+    for (size_t i = 0; i < count && i < MOST_OCCLUDERS; i++) {
+        uint32_t owner = obs_occluder_owner(job->loaded.file, job->culprits[i]);
+        fprintf(stderr, "%s %u", i ? "," : "", job->culprits[i]);
+        if (owner != OBS_NO_OWNER) fprintf(stderr, " (of object %u)", owner);
+    }
     fprintf(stderr, count > MOST_OCCLUDERS ? " and %zu more\n" : "\n", count - MOST_OCCLUDERS);
 }
 

@@ -28,7 +28,7 @@ static uint32_t *find_owning(const obs_scene *scene)
     if (!bits) fputs("occlude-bench: not enough memory\n", stderr);
     for (uint32_t i = 0; bits && i < obs_occluder_total(scene); i++) {
         uint32_t owner = obs_occluder_owner(scene, i);
-        bits[owner / 32] |= UINT32_C(1) << owner % 32;
+        if (owner != OBS_NO_OWNER) bits[owner / 32] |= UINT32_C(1) << owner % 32;
     }
     return bits;
 }

@@ -145,7 +145,8 @@ static bool read_owner(obs_cursor *cursor, const obs_scene *scene, uint32_t *own
                        const char *what, uint32_t i)
 {
     *owner = load_u32(cursor->bytes + cursor->at);
-    if (*owner >= scene->object_count)
+    bool is_none = *owner == OBS_NO_OWNER && cursor->bytes[3] == '2';
+    if (*owner >= scene->object_count && !is_none)
         return refuse(cursor, cursor->at,
                       "expected the owner of %s %u to be below %u objects, found %u", what, i,
                       scene->object_count, *owner);
@@ -268,13 +269,21 @@ bool obs_read(const char *path, obs_scene *scene)
 
 // --- writing -------------------------------------------------------------------------------------
 
+static bool needs_version_2(const obs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->occluder_count; i++)
+        if (scene->occluders[i].owner == OBS_NO_OWNER) return true;
+    return scene->sheet_count > 0;
+}
+
 static void write_header(FILE *stream, const obs_scene *scene)
 {
     uint8_t record[HEADER_2_BYTES] = {'O', 'B', 'S', '1'};
-    size_t size = scene->sheet_count ? HEADER_2_BYTES : HEADER_BYTES;
+    bool version_2 = needs_version_2(scene);
+    size_t size = version_2 ? HEADER_2_BYTES : HEADER_BYTES;
     store_u32(record + 4, scene->object_count);
     store_u32(record + 8, scene->occluder_count);
-    if (scene->sheet_count) {
+    if (version_2) {
         record[3] = '2';
         store_u32(record + 12, scene->sheet_count);
     }

@@ -10,12 +10,16 @@
 ///     sheets    x u32 corners (3 to 8), u32 sides, 24 f32: corner[8] (those not used 0), u32 owner
 ///     frames    x 38 f32: eye[3], dir[3], view[16], proj[16]
 ///
-/// Both are read; version 1 is written where there are no sheets. Boxes and sheets share one row of
+/// In version 2 an owner may be 0xffffffff: part of no object. Both are read; version 1 is written
+/// where there are no sheets and every occluder has an owner. Boxes and sheets share one row of
 /// occluder numbers: boxes come first, then the sheets.
 #ifndef OCC_BENCH_OBS_H
 #define OCC_BENCH_OBS_H
 
 #include <occlude/scene.h>
+
+/// The owner of an occluder that is part of no object.
+#define OBS_NO_OWNER UINT32_MAX
 
 /// A solid box or flat one, and the index of the object that it is part of.
 typedef struct obs_occluder {
@@ -62,11 +66,11 @@ void obs_free(obs_scene *scene);
 /// UINT32_MAX, as the next three do.
 uint32_t obs_add_object(obs_scene *scene, const occ_box *box);
 
-/// Appends an occluder, part of the object `owner`, and returns its index.
+/// Appends an occluder, part of the object `owner` or OBS_NO_OWNER, and returns its index.
 uint32_t obs_add_occluder(obs_scene *scene, const occ_box *box, uint32_t owner);
 
-/// Appends a sheet, part of the object `owner`, and returns its index. Corners beyond its count
-/// become 0.
+/// Appends a sheet, part of the object `owner` or OBS_NO_OWNER, and returns its index. Corners
+/// beyond its count become 0.
 uint32_t obs_add_sheet(obs_scene *scene, const occ_sheet *sheet, uint32_t owner);
 
 /// Appends a frame and returns its index.
@@ -85,7 +89,7 @@ static inline const occ_sheet *obs_occluder_sheet(const obs_scene *scene, uint32
     return number < boxes ? NULL : &scene->sheets[number - boxes].sheet;
 }
 
-/// The object that occluder `number`, a box or a sheet, is part of.
+/// The object that occluder `number`, a box or a sheet, is part of, or OBS_NO_OWNER.
 static inline uint32_t obs_occluder_owner(const obs_scene *scene, uint32_t number)
 {
     uint32_t boxes = scene->occluder_count;

@@ -45,9 +45,12 @@
 #define OCCLUDE_H
 
 #include "base.h"
+#include "clusters.h"
 #include "cull.h"
 #include "inner.h"
+#include "instances.h"
 #include "scene.h"
+#include "sheets.h"
 #include "soup.h"
 #include "version.h"
 

@@ -4,6 +4,7 @@
 #ifndef OCC_FIT_H
 #define OCC_FIT_H
 
+#include "memory.h"
 #include "soup/overlap.h"
 
 #include <occlude/soup.h>
@@ -73,5 +74,12 @@ bool occ_fit_hold(const occ_points *points, const occ_sample *sample, const occ_
 
 // The length of a box's sides.
 void occ_fit_sides(const occ_box *box, double side[3]);
+
+// --- all of it -----------------------------------------------------------------------------------
+
+// A small box around points, turned as is best, or as `given` says; or along the axes, where that
+// is as small.
+occ_result occ_fit_points(const occ_points *points, const occ_frame3 *given,
+                          const occ_soup_work *work, const occ_hooks *hooks, occ_box *box);
 
 #endif

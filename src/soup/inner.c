@@ -2,6 +2,7 @@
 #include "soup/inner.h"
 
 #include "log.h"
+#include "soup/tally.h"
 
 #include <math.h>
 
@@ -37,36 +38,6 @@ occ_result occ_inner_take_desc(const occ_hooks *hooks, occ_inner_desc *desc)
         complaint = "outside_solid needs free_points: else all is solid";
     if (complaint) return occ_fail(hooks, OCC_ERROR_INVALID_ARGUMENT, "%s", complaint);
     return check_points(d, hooks);
-}
-
-// --- an allocator that counts --------------------------------------------------------------------
-
-typedef struct tally {
-    occ_allocator allocator;
-    uint64_t bytes, peak;
-} tally;
-
-static void *tally_alloc(size_t size, size_t alignment, void *user_data)
-{
-    tally *t = user_data;
-    void *pointer = t->allocator.alloc(size, alignment, t->allocator.user_data);
-    if (!pointer) return NULL;
-    t->bytes += size;
-    if (t->bytes > t->peak) t->peak = t->bytes;
-    return pointer;
-}
-
-static void tally_free(void *pointer, size_t size, void *user_data)
-{
-    tally *t = user_data;
-    t->bytes -= size;
-    t->allocator.free(pointer, size, t->allocator.user_data);
-}
-
-static void count_bytes(occ_hooks *hooks, tally *t)
-{
-    *t = (tally){.allocator = hooks->allocator};
-    hooks->allocator = (occ_allocator){tally_alloc, tally_free, t};
 }
 
 // --- the search ----------------------------------------------------------------------------------
@@ -121,12 +92,12 @@ static void free_search(occ_search *s)
 static occ_result find(occ_hooks *hooks, const occ_soup *soup, const occ_inner_desc *desc,
                        occ_inner_box *boxes, size_t capacity, size_t *count, occ_inner_stats *stats)
 {
-    tally counted;
+    occ_tally counted;
     occ_team *team;
     occ_hooks plain = *hooks; // what threads take is no part of what is counted
     occ_result result = occ_team_create(&plain, occ_threads_offered(desc->threads), &team);
     if (result) return occ_fail(hooks, result, "no memory for threads");
-    count_bytes(hooks, &counted);
+    occ_tally_start(&counted, hooks);
     find_call call = {.search = {.hooks = hooks,
                                  .desc = desc,
                                  .sites = OCC_ARRAY(occ_site),

@@ -42,6 +42,26 @@ int occ_side_of_plane(const float a[3], const float b[3], const float c[3], cons
     return size == 0.0 ? 0 : exact_side(a, b, c, d);
 }
 
+static int exact_turn(const float a[2], const float b[2], const float c[2])
+{
+    occ_unrounded_vector p = occ_unrounded_vector_from((float[3]){a[0], a[1], 0.0f}),
+                         u = occ_unrounded_vector_from((float[3]){b[0], b[1], 0.0f}),
+                         v = occ_unrounded_vector_from((float[3]){c[0], c[1], 0.0f});
+    u = occ_unrounded_vector_subtract(&u, &p);
+    v = occ_unrounded_vector_subtract(&v, &p);
+    return occ_unrounded_minor(&u, &v, 0, 1).sign;
+}
+
+int occ_turn(const float a[2], const float b[2], const float c[2])
+{
+    double u[2] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1]};
+    double v[2] = {(double)c[0] - (double)a[0], (double)c[1] - (double)a[1]};
+    double minor = u[0] * v[1] - u[1] * v[0];
+    double size = fabs(u[0] * v[1]) + fabs(u[1] * v[0]);
+    if (fabs(minor) > MINOR_ERROR * size) return sign_of(minor);
+    return size == 0.0 ? 0 : exact_turn(a, b, c);
+}
+
 static bool exactly_in_line(const float a[3], const float b[3], const float m[3])
 {
     occ_unrounded_vector p = occ_unrounded_vector_from(a), u = occ_unrounded_vector_from(b),

@@ -36,9 +36,8 @@ static occ_result find_frame(const occ_points *points, const occ_soup_work *work
     return result;
 }
 
-// Points whose coordinates are good.
-static occ_result fit_points(const occ_points *points, const occ_soup_work *work,
-                             const occ_hooks *hooks, occ_box *box)
+occ_result occ_fit_points(const occ_points *points, const occ_frame3 *given,
+                          const occ_soup_work *work, const occ_hooks *hooks, occ_box *box)
 {
     occ_sample sample;
     occ_frame3 frame;
@@ -47,7 +46,12 @@ static occ_result fit_points(const occ_points *points, const occ_soup_work *work
     occ_sample_take(points, &sample);
     occ_result result = occ_box_from_min_max(sample.min, sample.max, &upright);
     if (result) return occ_fail(hooks, result, "the bounds reach beyond OCC_MAX_COORDINATE");
-    result = find_frame(points, work, hooks, &sample, &frame, &extent);
+    if (given) {
+        frame = *given;
+        (void)occ_sample_extend(points, given, &sample, &extent);
+    } else {
+        result = find_frame(points, work, hooks, &sample, &frame, &extent);
+    }
     if (!result && sample.grain > 0.0 && occ_fit_hold(points, &sample, &frame, &extent, &turned)) {
         double side[2][3];
         occ_fit_sides(&upright, side[0]);
@@ -91,7 +95,7 @@ occ_result occ_bounds_of_points(const float *points, size_t count, size_t stride
     result = check_points(points, count, stride, &hooks);
     if (result) return result;
     occ_points all = {points, stride ? stride : 3 * sizeof(float), count, NULL};
-    return fit_points(&all, work, &hooks, box);
+    return occ_fit_points(&all, NULL, work, &hooks, box);
 }
 
 occ_result occ_bounds_of_soup(const occ_soup *soup, const occ_soup_work *work, occ_box *box)
@@ -104,7 +108,7 @@ occ_result occ_bounds_of_soup(const occ_soup *soup, const occ_soup_work *work, o
     if (result) return result;
     occ_points corners = {soup->positions, soup->stride ? soup->stride : 3 * sizeof(float),
                           3 * (size_t)soup->triangle_count, soup->indices};
-    return fit_points(&corners, work, &hooks, box);
+    return occ_fit_points(&corners, NULL, work, &hooks, box);
 }
 
 occ_result occ_verify_bounds(const occ_soup *soup, const occ_box *box, const occ_soup_work *work,

@@ -147,8 +147,11 @@ static occ_result report(const verify_call *call, occ_inner_fault *fault)
     return OCC_SUCCESS;
 }
 
+// Judges all boxes; `fault` and `reasons` may be NULL. Without `reasons` an unsound one is an
+// error.
 static occ_result verify(occ_hooks *hooks, const occ_soup *soup, const occ_inner_box *boxes,
-                         size_t count, const occ_inner_desc *desc, occ_inner_fault *fault)
+                         size_t count, const occ_inner_desc *desc, occ_inner_fault *fault,
+                         occ_inner_reason *reasons)
 {
     verify_call call = {.hooks = hooks, .soup = soup, .desc = desc, .boxes = boxes, .count = count};
     call.verdicts = occ_alloc(hooks, count * sizeof *call.verdicts);
@@ -162,7 +165,9 @@ static occ_result verify(occ_hooks *hooks, const occ_soup *soup, const occ_inner
         occ_team_destroy(hooks, team);
     }
     occ_result result = call.result;
-    if (!result) {
+    for (size_t i = 0; !result && reasons && i < count; i++)
+        reasons[i] = call.verdicts[i].reason;
+    if (!result && !reasons) {
         result = report(&call, fault);
     } else if (result == OCC_ERROR_OUT_OF_MEMORY) {
         (void)occ_fail(hooks, result, "no memory to verify %zu boxes", count);
@@ -172,6 +177,12 @@ static occ_result verify(occ_hooks *hooks, const occ_soup *soup, const occ_inner
     occ_mesh_free(hooks, &call.mesh);
     occ_free(hooks, call.verdicts, count * sizeof *call.verdicts);
     return result;
+}
+
+occ_result occ_inner_judge(occ_hooks *hooks, const occ_soup *soup, const occ_inner_box *boxes,
+                           size_t count, const occ_inner_desc *desc, occ_inner_reason *reasons)
+{
+    return verify(hooks, soup, boxes, count, desc, NULL, reasons);
 }
 
 occ_result occ_verify_inner(const occ_soup *soup, const occ_inner_box *boxes, size_t count,
@@ -187,5 +198,5 @@ occ_result occ_verify_inner(const occ_soup *soup, const occ_inner_box *boxes, si
     if (!result) result = occ_soup_validate(soup, &hooks);
     if (!result) result = check_boxes(boxes, count, &hooks);
     if (result || !count) return result;
-    return verify(&hooks, soup, boxes, count, &taken, fault);
+    return verify(&hooks, soup, boxes, count, &taken, fault, NULL);
 }

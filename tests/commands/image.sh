@@ -84,11 +84,11 @@ refused 2 'expected frustum, pairwise, single or fused' hall.obs --model hall.ob
 refused 2 'expected plain, openmp or opencl' hall.obs --model hall.obj --backend gpu
 refused 2 'expected all or frustum after --against' hall.obs --model hall.obj --against none
 refused 2 '--tolerance is 0.1 at most' hall.obs --model hall.obj --tolerance 1
-refused 2 '--triangles is 2 at least' hall.obs --model hall.obj --triangles 1
+refused 2 '--triangles: expected a number from 1' hall.obs --model hall.obj --triangles 0
 refused 1 'absent.obj' hall.obs --model absent.obj
 refused 1 'absent.obs' absent.obs --model hall.obj
 refused 1 'expected --frames as 0,20,40' hall.obs --model hall.obj --frames 9
-refused 1 'give --triangles, --up and --see-through as they were given to convert' \
+refused 1 'give --triangles, --split, --up and --see-through as they were given to convert' \
     hall.obs --model hall.obj --up y
 refused 1 'has another box than hall.obj gives it' hall.obs --model hall.obj --triangles 12 --up z
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes as a soup: it is refused for a reason that is there, or its bounds hold every vertex; and
-// how its triangles meet a box does not depend on how either is told.
+// how its triangles meet a box does not depend on how either is told. It is split into clusters
+// too.
 #include "bytes.h"
 #include "soup/overlap.h"
 
@@ -126,6 +127,38 @@ static void check_bounds(fuzz_bytes *from, const read_soup *read)
     }
 }
 
+// Split by what the next bytes ask for: each triangle is in one cluster, which has one label and is
+// not too large, and its bounds hold.
+static void check_clusters(fuzz_bytes *from, const read_soup *read)
+{
+    const occ_soup *soup = &read->soup;
+    uint32_t label[TRIANGLES], order[TRIANGLES], first[TRIANGLES + 1], count, index[3 * TRIANGLES];
+    occ_clusters_desc desc = {.max_triangles = fuzz_byte(from) % 9, .labels = label};
+    uint32_t most = desc.max_triangles ? desc.max_triangles : 32;
+    uint64_t seen = 0;
+    for (uint32_t t = 0; t < soup->triangle_count; t++)
+        label[t] = fuzz_byte(from) % 3;
+    FUZZ_CHECK(!occ_clusters_find(soup, &desc, order, first, &count));
+    FUZZ_CHECK(first[0] == 0 && first[count] == soup->triangle_count);
+    for (uint32_t i = 0; i < count; i++) {
+        occ_soup part = *soup;
+        part.indices = index;
+        part.triangle_count = first[i + 1] - first[i];
+        FUZZ_CHECK(first[i] < first[i + 1] && part.triangle_count <= most);
+        for (uint32_t k = 0; k < 3 * part.triangle_count; k++) {
+            uint32_t t = order[first[i] + k / 3];
+            FUZZ_CHECK(t < soup->triangle_count && label[t] == label[order[first[i]]]);
+            seen |= UINT64_C(1) << t;
+            index[k] = index_at(soup, 3 * t + k % 3);
+        }
+        occ_box box;
+        occ_result result = occ_clusters_bounds(soup, order, first + i, 1, NULL, &box);
+        FUZZ_CHECK(result == OCC_ERROR_OUT_OF_RANGE ||
+                   (!result && !occ_verify_bounds(&part, &box, NULL, NULL)));
+    }
+    FUZZ_CHECK(seen + 1 == UINT64_C(1) << soup->triangle_count);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_bytes from = {data, size};
@@ -140,5 +173,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     check_counts(&read);
     check_bounds(&from, &read);
+    check_clusters(&from, &read);
     return 0;
 }
