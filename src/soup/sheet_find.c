@@ -37,8 +37,8 @@ static uint64_t work_of(const find_call *call)
 // number of pieces: triangles that cover each other may be cut into any number of them.
 static bool is_too_much(const find_call *call)
 {
-    uint64_t count = call->cover.plane->count;
-    return work_of(call) - call->work_before > (1u << 21) + 200 * count ||
+    uint64_t count = call->cover.plane->count, few = count < 4096 ? count : 4096;
+    return work_of(call) - call->work_before > (1u << 18) + 4000 * few + 200 * count ||
            call->cover.pieces.count > 2048 + 16 * count;
 }
 
