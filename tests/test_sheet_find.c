@@ -69,6 +69,14 @@ static void add_rectangle(float x0, float y0, float x1, float y1)
              (float[3]){x0, y1, 0});
 }
 
+// The i-th square of rows of `wide`.
+static void add_square(int i, int wide)
+{
+    int y = i / wide;
+    float x0 = (float)(i - y * wide), y0 = (float)y;
+    add_rectangle(x0, y0, x0 + 1.0f, y0 + 1.0f);
+}
+
 static void turn_world(float angle)
 {
     float c = cosf(angle), s = sinf(angle);
@@ -106,7 +114,7 @@ START_TEST(grid_of_quads_is_one_sheet_however_it_is_turned)
         shapes_reset(world);
         memcpy(world->turn, across[kind], sizeof world->turn);
         for (int i = 0; i < 64; i++)
-            add_rectangle((float)(i % 8), (float)(i / 8), (float)(i % 8 + 1), (float)(i / 8 + 1));
+            add_square(i, 8);
         find(&desc);
         ck_assert_uint_eq(count, 1);
         ck_assert_uint_eq(stats.planes, 1);
@@ -125,9 +133,7 @@ START_TEST(no_sheet_reaches_into_a_window)
         shapes_reset(world);
         if (slanted) slant_world();
         for (int i = 0; i < 25; i++)
-            if (i != 12)
-                add_rectangle((float)(i % 5), (float)(i / 5), (float)(i % 5 + 1),
-                              (float)(i / 5 + 1));
+            if (i != 12) add_square(i, 5);
         find(&desc);
         ck_assert_uint_eq(stats.planes, 1);
         ck_assert_uint_eq(count, 4); // along each side of it, from wall to wall
@@ -360,8 +366,7 @@ START_TEST(false_sheets_are_named_with_the_reason)
 {
     occ_sheet_fault fault;
     for (int i = 0; i < 9; i++)
-        if (i != 4)
-            add_rectangle((float)(i % 3), (float)(i / 3), (float)(i % 3 + 1), (float)(i / 3 + 1));
+        if (i != 4) add_square(i, 3);
     ck_assert_int_eq(judge_rectangle(0, 0, 3, 1), OCC_SHEET_SOUND);
     ck_assert_int_eq(judge_rectangle(0.3f, 0.2f, 2.9f, 0.9f), OCC_SHEET_SOUND);
     ck_assert_int_eq(judge_rectangle(3, 1, 0, 0), OCC_SHEET_SOUND); // the other way round
@@ -479,8 +484,7 @@ static void add_some(void)
 {
     shapes_round(world, 8, 0.4f);
     for (int i = 0; i < 25; i++)
-        if (i != 12)
-            add_rectangle((float)(i % 5), (float)(i / 5), (float)(i % 5 + 1), (float)(i / 5 + 1));
+        if (i != 12) add_square(i, 5);
     turn_world(0.4f);
     shapes_box(world, (float[3]){4, 0, 0}, (float[3]){7, 1, 1});
     add_rectangle(9, 0, 10, 4);

@@ -81,7 +81,7 @@ occ_result occ_cover_start(occ_cover *cover, const occ_sheet_plane *plane)
         cover->area += occ_region_area(&r);
         if (!cover->used[t]) at[cover->whole.count++] = t;
     }
-    cover->floor = cover->area * 1e-7;
+    cover->floor = 1e-3 * cover->area / (double)plane->count;
     return OCC_SUCCESS;
 }
 
@@ -95,6 +95,7 @@ bool occ_cover_largest(occ_cover *cover, occ_cover_piece *piece)
         if (pieces[i].area <= most) continue;
         best = &pieces[i];
         most = best->area;
+        cover->largest = cover->whole.count + i;
     }
     if (best) *piece = *best;
     for (uint32_t i = 0; i < cover->whole.count; i++) {
@@ -104,8 +105,20 @@ bool occ_cover_largest(occ_cover *cover, occ_cover_piece *piece)
         if (one.area <= most) continue;
         most = one.area;
         *piece = one;
+        cover->largest = i;
     }
     return most > cover->floor;
+}
+
+void occ_cover_drop(occ_cover *cover)
+{
+    uint32_t *whole = cover->whole.data, wholes = cover->whole.count;
+    occ_cover_piece *pieces = cover->pieces.data;
+    if (cover->largest < wholes) {
+        whole[cover->largest] = whole[--cover->whole.count];
+    } else {
+        pieces[cover->largest - wholes] = pieces[--cover->pieces.count];
+    }
 }
 
 // Whether the bounds of two regions have an area in common.

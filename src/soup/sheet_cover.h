@@ -29,6 +29,7 @@ typedef struct occ_cover {
     double floor;     // of the area of a piece; smaller ones are let go
     double area;      // of all triangles
     uint64_t work;    // triangles and pieces that were looked at
+    uint32_t largest; // where it is: in `whole`, and in `pieces` after these
 } occ_cover;
 
 // A part of a triangle.
@@ -46,6 +47,9 @@ occ_result occ_cover_start(occ_cover *cover, const occ_sheet_plane *plane);
 
 // The largest piece, or false if none is left.
 bool occ_cover_largest(occ_cover *cover, occ_cover_piece *piece);
+
+// Lets the largest piece go, as it was found last.
+void occ_cover_drop(occ_cover *cover);
 
 // How much area within a region is not covered; with `take` it is from now on. If that fails for
 // want of memory, `*result` says so.

@@ -33,11 +33,13 @@ static uint64_t work_of(const find_call *call)
     return call->cover.work + call->grower.work;
 }
 
-// Work is bounded by the number of triangles: beyond that they become sheets as they are.
+// Work is bounded by the number of triangles: beyond that they become sheets as they are. So is the
+// number of pieces: triangles that cover each other may be cut into any number of them.
 static bool is_too_much(const find_call *call)
 {
-    uint64_t most = (1u << 22) + 200 * (uint64_t)call->cover.plane->count;
-    return work_of(call) - call->work_before > most;
+    uint64_t count = call->cover.plane->count, few = count < 4096 ? count : 4096;
+    return work_of(call) - call->work_before > (1u << 18) + 4000 * few + 200 * count ||
+           call->cover.pieces.count > 2048 + 16 * count;
 }
 
 // --- one plane -----------------------------------------------------------------------------------
@@ -86,11 +88,13 @@ static void sheet_of_triangle(const find_call *call, uint32_t triangle, occ_foun
 }
 
 // A sheet around a seed, and its region. One that has less than half of the seed is no match for
-// the seed's triangle.
+// the seed's triangle; where even that has not, reckoning has lost its way among slivers: `*made`
+// is false.
 static occ_result make_sheet(find_call *call, const occ_cover_piece *seed, occ_found_sheet *out,
-                             occ_region *region)
+                             occ_region *region, bool *made)
 {
     bool grown;
+    *made = true;
     occ_sheet_basis basis;
     occ_result result = occ_grower_grow(&call->grower, &seed->region, &out->sheet, &basis, &grown);
     if (grown) {
@@ -103,6 +107,7 @@ static occ_result make_sheet(find_call *call, const occ_cover_piece *seed, occ_f
     if (grown) return result;
     sheet_of_triangle(call, seed->triangle, out);
     region_of_sheet(call->cover.plane, &out->sheet, region);
+    *made = occ_cover_gain(&call->cover, region, false, &result) > 0.5 * seed->area;
     return result;
 }
 
@@ -116,8 +121,14 @@ static occ_result make_sheets(find_call *call)
         occ_found_sheet *out = occ_array_push(call->hooks, &call->local);
         occ_region region;
         if (!out) return OCC_ERROR_OUT_OF_MEMORY;
-        result = make_sheet(call, &seed, out, &region);
+        bool made;
+        result = make_sheet(call, &seed, out, &region, &made);
         if (result) break;
+        if (!made) {
+            call->local.count--;
+            occ_cover_drop(&call->cover);
+            continue;
+        }
         double gain = occ_cover_gain(&call->cover, &region, true, &result);
         out->gain = (float)occ_least(1.0, gain / occ_region_area(&region));
     }
@@ -180,7 +191,7 @@ static uint32_t choose(find_call *call, double *gains, occ_region *region, occ_r
 }
 
 // Keeps the sheets at hand in the order of what each adds to those before it, and those that add
-// something.
+// something; few of them if that is too much work.
 static occ_result keep_by_gain(find_call *call)
 {
     occ_region region;
@@ -193,7 +204,8 @@ static occ_result keep_by_gain(find_call *call)
         region_of_sheet(call->cover.plane, &local[i].sheet, &region);
         gains[i] = occ_region_area(&region) * (1.0 + 1e-9);
     }
-    while (!result) {
+    call->work_before = work_of(call);
+    while (!result && !is_too_much(call)) {
         uint32_t best = choose(call, gains, &region, &result);
         double area = occ_region_area(&region);
         if (result || gains[best] <= LEAST_GAIN * area) break;

@@ -264,6 +264,7 @@ occ_result occ_grower_grow(occ_grower *g, const occ_region *seed, occ_sheet *she
 {
     occ_region region;
     *grown = false;
+    *basis = (occ_sheet_basis){0};
     if (!grow_region(g, seed, &region)) return OCC_SUCCESS;
     for (int rounding = 0; rounding < ROUNDINGS && !*grown; rounding++) {
         uint32_t beside;
@@ -271,9 +272,9 @@ occ_result occ_grower_grow(occ_grower *g, const occ_region *seed, occ_sheet *she
         occ_result result = occ_settle_region(g, &region, rounding, sheet, &settled);
         if (result) return result;
         if (!settled) continue;
-        g->work += 4 * (uint64_t)(g->plane->rims + g->plane->count);
         *grown = !occ_sheet_shape(sheet, g->desc->sides) &&
                  !occ_prove_in_plane(g->surface, g->desc, g->plane, sheet, basis, &beside);
+        g->work += basis->work;
         if (g->lattice == OCC_LATTICE_VERTICES) break; // nothing was rounded
     }
     return OCC_SUCCESS;

@@ -131,13 +131,14 @@ static bool meets_triangle(const polygon *p, const float (*at)[2], int sense)
 }
 
 static bool meets_rims(const occ_surface *s, const occ_sheet_plane *plane, const polygon *p,
-                       uint32_t *beside)
+                       occ_sheet_basis *basis, uint32_t *beside)
 {
     const occ_sheet_rim *rim = (const occ_sheet_rim *)s->rims.data + plane->first_rim;
     for (uint32_t i = 0; i < plane->rims; i++) {
         float at[2][2];
         occ_sheet_flatten(plane, s->mesh.at[rim[i].from], at[0]);
         occ_sheet_flatten(plane, s->mesh.at[rim[i].to], at[1]);
+        basis->work += bounds_apart(p, (const float(*)[2])at, 2) ? 1 : 50;
         if (!meets_rim(p, (const float(*)[2])at)) continue;
         *beside = s->mesh.source[rim[i].triangle];
         return true;
@@ -156,6 +157,7 @@ static bool finds_triangles(const occ_surface *s, const occ_sheets_desc *desc,
         for (int c = 0; c < 3; c++)
             occ_sheet_flatten(plane, occ_mesh_corner(&s->mesh, t, c), at[c]);
         int sense = occ_turn(at[0], at[1], at[2]);
+        basis->work += bounds_apart(p, (const float(*)[2])at, 3) ? 1 : 50;
         if (!meets_triangle(p, (const float(*)[2])at, sense)) continue;
         if (sense < 0 && desc->sides == OCC_SIDES_FRONT) return false;
         for (int c = 0; c < 3; c++)
@@ -177,7 +179,7 @@ occ_sheet_reason occ_prove_in_plane(const occ_surface *s, const occ_sheets_desc 
     occ_sheet_reason reason = lay_out(plane, sheet, &turned, &p);
     if (reason) return reason;
     if (turned && desc->sides == OCC_SIDES_FRONT) return OCC_SHEET_OPEN; // nothing is drawn there
-    if (meets_rims(s, plane, &p, beside)) return OCC_SHEET_OPEN;
+    if (meets_rims(s, plane, &p, basis, beside)) return OCC_SHEET_OPEN;
     return finds_triangles(s, desc, plane, &p, basis) ? OCC_SHEET_SOUND : OCC_SHEET_OPEN;
 }
 

@@ -14,6 +14,7 @@
 typedef struct occ_sheet_basis {
     uint32_t triangle, count; // the first one in the soup, and how many
     uint32_t label;
+    uint64_t work; // steps that its proof in a plane took, or the attempt
 } occ_sheet_basis;
 
 // Whether a sheet can be one at all: its corner count, numbers, corners that follow each other at
