@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stand in for commands whose packages were not there when this was built.
+// Stand in for commands, and what several of them share, whose packages were not there when this
+// was built.
 #include "commands.h"
+#include "model.h"
 
 #include <stdio.h>
 
@@ -10,6 +12,14 @@ int bench_convert(int argc, char **argv)
     (void)argc;
     fprintf(stderr, "occlude-bench %s: built without Assimp, which it needs\n", argv[0]);
     return 1;
+}
+
+bool model_read(const char *path, const model_options *options, model *out)
+{
+    (void)options;
+    *out = (model){0};
+    fprintf(stderr, "occlude-bench: %s: built without Assimp, which reading models needs\n", path);
+    return false;
 }
 #endif
 

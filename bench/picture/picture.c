@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "options.h"
+#include "picture_surface.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -19,8 +20,11 @@ static const canvas_color picture_margin = {241, 242, 244};
 
 typedef struct picture_arguments {
     const char *scene, *out, *frame_text, *size_text, *method, *object_text;
+    const char *model;
     picture_wish wish;
     options_extent extent;
+    division_options division;
+    picture_surface surface;
 } picture_arguments;
 
 static const char picture_usage[] =
@@ -39,11 +43,32 @@ static const char picture_usage[] =
     "                its fate and these occluders, by their places in the file, nearest first\n"
     "  --vis R.vis   take the verdicts from this file (of occlude-bench cull) instead of deciding\n"
     "  --size WxH    of the picture (default 1600x672)\n"
+    "  --model MODEL draw the camera's view with the triangles of the model that the scene was\n"
+    "                converted from, and over them the file's sheets and boxes; --triangles,\n"
+    "                --split, --up and --see-through as they were given to convert\n"
+    "  --bounds      with --model: draw the boxes around the visible objects too\n"
     "\n"
     "Boxes are drawn: objects are what lies inside them. From above nothing is buried under\n"
     "anything, whatever its height; what is very large is drawn pale.\n"
     "\n"
     "Example: occlude-bench picture city.obs --frame 20 --method fused --out city.png\n";
+
+// What was told about a model. Returns 0, or 2 after a complaint.
+static int complete_model(const char *command, picture_arguments *arguments)
+{
+    const division_options defaults = division_defaults();
+    division_options *dividing = &arguments->division;
+    bool told = dividing->most || dividing->split || dividing->up || dividing->see_through;
+    if (!arguments->model && (told || arguments->surface.bounds))
+        return options_complain(
+            command, "--triangles, --split, --up, --see-through and --bounds go with --model");
+    if (arguments->model && arguments->wish.explain)
+        return options_complain(command, "--explain goes without --model");
+    if (!dividing->most) dividing->most = defaults.most;
+    if (!dividing->split) dividing->split = defaults.split;
+    const char *complaint = division_complete(dividing);
+    return complaint ? options_complain(command, complaint) : 0;
+}
 
 // The numbers and names among the options. Returns 0, or 2 after a complaint.
 static int read_options(const char *command, picture_arguments *arguments)
@@ -74,17 +99,25 @@ static int read_options(const char *command, picture_arguments *arguments)
 static int parse_picture(int argc, char **argv, picture_arguments *arguments)
 {
     *arguments = (picture_arguments){.extent = {1600, 672}};
-    const options_entry entries[] = {{"--frame", OPTIONS_TEXT, &arguments->frame_text},
-                                     {"--out", OPTIONS_TEXT, &arguments->out},
-                                     {"--vis", OPTIONS_TEXT, &arguments->wish.vis_path},
-                                     {"--method", OPTIONS_TEXT, &arguments->method},
-                                     {"--explain", OPTIONS_TEXT, &arguments->object_text},
-                                     {"--size", OPTIONS_TEXT, &arguments->size_text},
-                                     {NULL, OPTIONS_FLAG, NULL}};
+    const options_entry entries[] = {
+        {"--frame", OPTIONS_TEXT, &arguments->frame_text},
+        {"--out", OPTIONS_TEXT, &arguments->out},
+        {"--vis", OPTIONS_TEXT, &arguments->wish.vis_path},
+        {"--method", OPTIONS_TEXT, &arguments->method},
+        {"--explain", OPTIONS_TEXT, &arguments->object_text},
+        {"--size", OPTIONS_TEXT, &arguments->size_text},
+        {"--model", OPTIONS_TEXT, &arguments->model},
+        {"--triangles", OPTIONS_COUNT, &arguments->division.most},
+        {"--split", OPTIONS_TEXT, &arguments->division.split},
+        {"--up", OPTIONS_TEXT, &arguments->division.up},
+        {"--see-through", OPTIONS_TEXT, &arguments->division.see_through},
+        {"--bounds", OPTIONS_FLAG, &arguments->surface.bounds},
+        {NULL, OPTIONS_FLAG, NULL}};
     int status = options_parse_scene(argc, argv, entries, &arguments->scene);
     if (status) return status;
     if (!arguments->out) return options_complain(argv[0], "expected --out P.png");
-    return read_options(argv[0], arguments);
+    status = read_options(argv[0], arguments);
+    return status ? status : complete_model(argv[0], arguments);
 }
 
 static const char *base_name(const char *path)
@@ -175,6 +208,31 @@ static void draw_legend(canvas *c, int y, const picture_facts *facts)
     draw_key(c, x, y, picture_occluder_color, label);
 }
 
+// What the camera's view shows, in the line above it.
+static void draw_camera_caption(canvas *c, int x, int y, const picture_arguments *arguments,
+                                const picture_facts *facts)
+{
+    const obs_scene *scene = facts->scene;
+    char text[96], number[32];
+    if (!arguments->model) {
+        canvas_text(c, x, y, dot_size(c), picture_ink,
+                    facts->explained
+                        ? "from the camera: the object, striped, shines through what hides it"
+                        : "from the camera: hidden objects, striped, shine through what hides "
+                          "them");
+        return;
+    }
+    snprintf(text, sizeof text, "from the camera: %s triangles",
+             grouped(arguments->surface.model.triangle_count, number));
+    canvas_text(c, x, y, dot_size(c), picture_ink, text);
+    x += canvas_text_width(text, dot_size(c)) + scaled(c, 30);
+    snprintf(text, sizeof text, "%s sheets", grouped(scene->sheet_count, number));
+    x = draw_key(c, x, y, picture_sheet_color, text);
+    snprintf(text, sizeof text, "%s inner boxes", grouped(scene->occluder_count, number));
+    x = draw_key(c, x, y, picture_inner_color, text);
+    if (arguments->surface.bounds) draw_key(c, x, y, picture_colors[PICTURE_VISIBLE], "bounds");
+}
+
 // Both panels have one height; the map is square, and the other as wide as the camera sees.
 static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *map,
                          canvas_rect *camera)
@@ -191,21 +249,19 @@ static void place_panels(const canvas *c, const obs_frame *frame, canvas_rect *m
 
 static bool draw_all(canvas *c, const picture_arguments *arguments, const picture_facts *facts)
 {
-    const char *camera_caption =
-        facts->explained
-            ? "from the camera: the object, striped, shines through what hides it"
-            : "from the camera: hidden objects, striped, shine through what hides them";
     canvas_rect map, camera;
     char caption[96];
     place_panels(c, facts->frame, &map, &camera);
-    if (!picture_draw_map(c, map, facts, caption, sizeof caption) ||
-        !picture_draw_camera(c, camera, facts)) {
+    bool good = picture_draw_map(c, map, facts, caption, sizeof caption) &&
+                (arguments->model ? picture_draw_surface(c, camera, facts, &arguments->surface)
+                                  : picture_draw_camera(c, camera, facts));
+    if (!good) {
         fputs("occlude-bench: not enough memory\n", stderr);
         return false;
     }
     int y = map.y - scaled(c, 22);
     canvas_text(c, map.x, y, dot_size(c), picture_ink, caption);
-    canvas_text(c, camera.x, y, dot_size(c), picture_ink, camera_caption);
+    draw_camera_caption(c, camera.x, y, arguments, facts);
     canvas_frame(c, map, CANVAS_FINE, picture_ink);
     canvas_frame(c, camera, CANVAS_FINE, picture_ink);
     draw_title(c, arguments, facts);
@@ -241,7 +297,7 @@ static void print_facts(const picture_wish *wish, const picture_facts *facts)
     puts(facts->culprit_count ? "" : "none");
 }
 
-static bool picture_of(const picture_arguments *arguments, const obs_scene *scene)
+static bool picture_of(picture_arguments *arguments, const obs_scene *scene)
 {
     picture_facts facts;
     const picture_wish *wish = &arguments->wish;
@@ -255,10 +311,15 @@ static bool picture_of(const picture_arguments *arguments, const obs_scene *scen
                 wish->object, scene->object_count);
         return false;
     }
-    if (!picture_decide(scene, wish, &facts)) return false;
-    bool good = draw_picture(arguments, &facts);
+    const picture_files files = {arguments->scene, arguments->model};
+    if (files.model &&
+        !picture_surface_read(files, &arguments->division, scene, &arguments->surface))
+        return false;
+    bool decided = picture_decide(scene, wish, &facts);
+    bool good = decided && draw_picture(arguments, &facts);
     if (good) print_facts(wish, &facts);
-    picture_facts_free(&facts);
+    if (decided) picture_facts_free(&facts);
+    picture_surface_free(&arguments->surface);
     return good;
 }
 

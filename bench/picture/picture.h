@@ -56,6 +56,15 @@ extern const canvas_color picture_culprit_color;
 extern const canvas_color picture_ink;
 extern const canvas_color picture_paper;
 
+/// A colour on a face that these two directions lie in: light from above, a little from one side.
+canvas_color picture_shade(canvas_color color, const float u[3], const float v[3]);
+
+/// A colour half as bright, for lines.
+canvas_color picture_half(canvas_color color);
+
+/// Fills a panel from sky to horizon, so that empty pixels do not read as a surface.
+void picture_sky(canvas *c, canvas_rect panel);
+
 /// Draws the map in a rectangle of the canvas, and tells in `caption` what part of the scene it is.
 /// Returns false when memory runs out.
 bool picture_draw_map(canvas *c, canvas_rect panel, const picture_facts *facts, char *caption,

@@ -6,7 +6,6 @@
 
 #include "raster.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { STRIPE_PERIOD = 14, STRIPE_WIDTH = 4 };
@@ -51,38 +50,6 @@ static void face_directions(const layer *from, const obs_scene *scene, uint32_t 
     copy_directions(box->axis[(axis + 1) % 3], box->axis[(axis + 2) % 3], u, v);
 }
 
-// By which way a face looks: light from above, a little from one side.
-static canvas_color shade(const layer *from, const obs_scene *scene, uint32_t face)
-{
-    canvas_color color = from->color;
-    float u[3], v[3], n[3], square = 1e-30f;
-    face_directions(from, scene, face, u, v);
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        n[k] = u[i] * v[j] - u[j] * v[i];
-        square += n[k] * n[k];
-    }
-    // Signs do not matter: of two opposite faces only one is seen, and few look down.
-    float length = sqrtf(square), up = fabsf(n[1]) / length, aside = fabsf(n[0]) / length;
-    float dark = 0.78f + 0.16f * aside, pale = 0.42f * up * up;
-    const float rgb[3] = {(float)color.r, (float)color.g, (float)color.b};
-    uint8_t out[3];
-    for (int k = 0; k < 3; k++) {
-        float lit = rgb[k] * (dark + (1 - dark) * up);
-        out[k] = (uint8_t)(lit + (255 - lit) * pale);
-    }
-    return (canvas_color){out[0], out[1], out[2]};
-}
-
-// Whether a face ends at a pixel: two pixels wide, one on each side.
-static bool is_edge(const raster *r, int x, int y)
-{
-    size_t i = (size_t)y * (size_t)r->width + (size_t)x, row = (size_t)r->width;
-    uint32_t face = r->face[i];
-    return (x > 0 && face != r->face[i - 1]) || (x + 1 < r->width && face != r->face[i + 1]) ||
-           (y > 0 && face != r->face[i - row]) || (y + 1 < r->height && face != r->face[i + row]);
-}
-
 static void paint(layers *l, const layer *from, int x, int y)
 {
     const raster *r = &from->raster;
@@ -90,11 +57,13 @@ static void paint(layers *l, const layer *from, int x, int y)
     size_t i = (size_t)y * (size_t)r->width + (size_t)x;
     int cx = l->panel.x + x, cy = l->panel.y + y;
     if (r->face[i] != RASTER_EMPTY) {
-        canvas_color color = shade(from, l->facts->scene, r->face[i]);
+        float u[3], v[3];
+        face_directions(from, l->facts->scene, r->face[i], u, v);
+        canvas_color color = picture_shade(from->color, u, v);
         bool stripe = !from->striped || (x + y) % STRIPE_PERIOD < STRIPE_WIDTH;
         if (stripe) canvas_mix(l->c, cx, cy, color, from->fill);
     }
-    if (is_edge(r, x, y)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
+    if (raster_is_edge(r, x, y)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
 }
 
 // An occluder lies within its owner's box: there it shows through, elsewhere only in front of a
@@ -151,24 +120,9 @@ static void draw_boxes(layers *l)
         draw_occluder(&l->culprits.raster, &camera, scene, facts->culprits[i]);
 }
 
-// Sky to horizon, so that empty pixels do not read as a surface.
-static void fill_background(canvas *c, canvas_rect panel)
-{
-    for (int y = 0; y < panel.height; y++) {
-        int tone = 236 + 16 * y / panel.height;
-        canvas_color color = {(uint8_t)(tone - 4), (uint8_t)(tone - 1), (uint8_t)tone};
-        canvas_fill(c, (canvas_rect){panel.x, panel.y + y, panel.width, 1}, color);
-    }
-}
-
-static canvas_color half_of(canvas_color color)
-{
-    return (canvas_color){(uint8_t)(color.r / 2), (uint8_t)(color.g / 2), (uint8_t)(color.b / 2)};
-}
-
 static layer make_layer(canvas_color color, bool shines_through)
 {
-    layer l = {.color = color, .line_color = half_of(color)};
+    layer l = {.color = color, .line_color = picture_half(color)};
     l.striped = shines_through;
     l.fill = shines_through ? 0.8f : 1.0f;
     l.line = shines_through ? 0.9f : 0.45f;
@@ -186,7 +140,7 @@ bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *fact
     l.occluders.fill = 0.75f;
     l.culprits = l.occluders;
     l.culprits.color = picture_culprit_color;
-    l.culprits.line_color = half_of(picture_culprit_color);
+    l.culprits.line_color = picture_half(picture_culprit_color);
     l.hidden = make_layer(picture_colors[PICTURE_HIDDEN], true);
     l.together = make_layer(picture_colors[PICTURE_TOGETHER], true);
     bool good = raster_create(&l.visible.raster, width, height) &&
@@ -195,7 +149,7 @@ bool picture_draw_camera(canvas *c, canvas_rect panel, const picture_facts *fact
                 (!facts->fused || raster_create(&l.together.raster, width, height)) &&
                 (!facts->explained || raster_create(&l.culprits.raster, width, height));
     if (good) {
-        fill_background(c, panel);
+        picture_sky(c, panel);
         draw_boxes(&l);
         compose(&l);
     }

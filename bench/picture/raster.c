@@ -216,6 +216,24 @@ void raster_sheet(raster *r, const raster_camera *camera, const occ_sheet *sheet
     }
 }
 
+void raster_triangle(raster *r, const raster_camera *camera, const float *const corner[3],
+                     uint32_t number)
+{
+    double at[3][3];
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++)
+            at[c][k] = (double)corner[c][k];
+    draw_face(r, camera, (const double(*)[3])at, 3, 6 * number);
+}
+
+bool raster_is_edge(const raster *r, int x, int y)
+{
+    size_t i = (size_t)y * (size_t)r->width + (size_t)x, row = (size_t)r->width;
+    uint32_t face = r->face[i];
+    return (x > 0 && face != r->face[i - 1]) || (x + 1 < r->width && face != r->face[i + 1]) ||
+           (y > 0 && face != r->face[i - row]) || (y + 1 < r->height && face != r->face[i + row]);
+}
+
 void raster_free(raster *r)
 {
     free(r->depth);

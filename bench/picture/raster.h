@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Boxes and sheets drawn from a camera into a depth buffer.
+/// Boxes, sheets and triangles drawn from a camera into a depth buffer.
 #ifndef OCC_BENCH_RASTER_H
 #define OCC_BENCH_RASTER_H
 
@@ -11,7 +11,7 @@ typedef struct raster {
     int width, height;
     float *depth;   ///< Clip z over w: less is nearer.
     uint32_t *face; ///< 6 * the box's number + the face's (0 to 5): axis * 2 + (positive side). A
-                    ///< sheet has face 0 alone.
+                    ///< sheet or a triangle has face 0 alone.
 } raster;
 
 #define RASTER_EMPTY UINT32_MAX
@@ -33,6 +33,13 @@ void raster_box(raster *r, const raster_camera *camera, const occ_box *box, uint
 
 /// Draws a sheet from the sides from which it hides, as far as it is beyond the near plane.
 void raster_sheet(raster *r, const raster_camera *camera, const occ_sheet *sheet, uint32_t number);
+
+/// Draws a triangle from both sides, as far as it is beyond the near plane.
+void raster_triangle(raster *r, const raster_camera *camera, const float *const corner[3],
+                     uint32_t number);
+
+/// Whether a face ends at a pixel: two pixels wide, one on each side.
+bool raster_is_edge(const raster *r, int x, int y);
 
 void raster_free(raster *r);
 
