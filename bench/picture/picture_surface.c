@@ -88,6 +88,13 @@ static canvas_color triangle_color(const coats *l, uint32_t triangle, canvas_col
     return picture_shade(color, u, v);
 }
 
+static canvas_color box_color(const coats *l, uint32_t face)
+{
+    const occ_box *box = &l->facts->scene->occluders[face / 6].box;
+    uint32_t axis = face % 6 / 2;
+    return picture_shade(picture_inner_color, box->axis[(axis + 1) % 3], box->axis[(axis + 2) % 3]);
+}
+
 // A raster's fill in one colour, and its lines in another.
 static void lay(coats *l, const raster *r, int x, int y, canvas_color color, float fill)
 {
@@ -106,7 +113,8 @@ static void compose_pixel(coats *l, int x, int y)
         if (raster_is_edge(&l->opaque, x, y)) canvas_mix(l->c, cx, cy, picture_ink, 0.15f);
     }
     if (is_before(l, &l->sheets, i)) lay(l, &l->sheets, x, y, picture_sheet_color, 0.35f);
-    if (l->boxes.face[i] != RASTER_EMPTY) lay(l, &l->boxes, x, y, picture_inner_color, 0.45f);
+    if (l->boxes.face[i] != RASTER_EMPTY)
+        lay(l, &l->boxes, x, y, box_color(l, l->boxes.face[i]), 0.5f);
     if (is_before(l, &l->glass, i))
         canvas_mix(l->c, cx, cy, triangle_color(l, l->glass.face[i] / 6, glass_color), 0.4f);
     if (l->surface->bounds && is_before(l, &l->bounds, i) && raster_is_edge(&l->bounds, x, y))
