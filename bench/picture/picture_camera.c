@@ -63,7 +63,7 @@ static void paint(layers *l, const layer *from, int x, int y)
         bool stripe = !from->striped || (x + y) % STRIPE_PERIOD < STRIPE_WIDTH;
         if (stripe) canvas_mix(l->c, cx, cy, color, from->fill);
     }
-    if (raster_is_edge(r, x, y)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
+    if (raster_is_edge(r, x, y, 1)) canvas_mix(l->c, cx, cy, from->line_color, from->line);
 }
 
 // An occluder lies within its owner's box: there it shows through, elsewhere only in front of a

@@ -12,6 +12,9 @@ const canvas_color picture_inner_color = {240, 190, 20};
 
 static const canvas_color glass_color = {120, 200, 224};
 
+// Where a line lies at the edge of all that is drawn, only the half within shows.
+enum { LINE_REACH = CANVAS_FINE };
+
 typedef struct coats {
     canvas *c;
     canvas_rect panel;
@@ -95,12 +98,12 @@ static canvas_color box_color(const coats *l, uint32_t face)
     return picture_shade(picture_inner_color, box->axis[(axis + 1) % 3], box->axis[(axis + 2) % 3]);
 }
 
-// A raster's fill in one colour, and its lines in another.
+// A raster's colour, and a darker one for its lines.
 static void lay(coats *l, const raster *r, int x, int y, canvas_color color, float fill)
 {
     int cx = l->panel.x + x, cy = l->panel.y + y;
     canvas_mix(l->c, cx, cy, color, fill);
-    if (raster_is_edge(r, x, y)) canvas_mix(l->c, cx, cy, picture_half(color), 0.75f);
+    if (raster_is_edge(r, x, y, LINE_REACH)) canvas_mix(l->c, cx, cy, picture_half(color), 0.75f);
 }
 
 static void compose_pixel(coats *l, int x, int y)
@@ -110,14 +113,15 @@ static void compose_pixel(coats *l, int x, int y)
     if (l->opaque.face[i] != RASTER_EMPTY) {
         canvas_mix(l->c, cx, cy, triangle_color(l, l->opaque.face[i] / 6, picture_surface_color),
                    1);
-        if (raster_is_edge(&l->opaque, x, y)) canvas_mix(l->c, cx, cy, picture_ink, 0.15f);
+        if (raster_is_edge(&l->opaque, x, y, 1)) canvas_mix(l->c, cx, cy, picture_ink, 0.15f);
     }
     if (is_before(l, &l->sheets, i)) lay(l, &l->sheets, x, y, picture_sheet_color, 0.35f);
     if (l->boxes.face[i] != RASTER_EMPTY)
         lay(l, &l->boxes, x, y, box_color(l, l->boxes.face[i]), 0.5f);
     if (is_before(l, &l->glass, i))
         canvas_mix(l->c, cx, cy, triangle_color(l, l->glass.face[i] / 6, glass_color), 0.4f);
-    if (l->surface->bounds && is_before(l, &l->bounds, i) && raster_is_edge(&l->bounds, x, y))
+    if (l->surface->bounds && is_before(l, &l->bounds, i) &&
+        raster_is_edge(&l->bounds, x, y, LINE_REACH))
         canvas_mix(l->c, cx, cy, picture_colors[PICTURE_VISIBLE], 0.8f);
 }
 

@@ -226,12 +226,15 @@ void raster_triangle(raster *r, const raster_camera *camera, const float *const 
     draw_face(r, camera, (const double(*)[3])at, 3, 6 * number);
 }
 
-bool raster_is_edge(const raster *r, int x, int y)
+bool raster_is_edge(const raster *r, int x, int y, int reach)
 {
-    size_t i = (size_t)y * (size_t)r->width + (size_t)x, row = (size_t)r->width;
+    size_t i = (size_t)y * (size_t)r->width + (size_t)x;
+    size_t aside = (size_t)reach, down = aside * (size_t)r->width;
     uint32_t face = r->face[i];
-    return (x > 0 && face != r->face[i - 1]) || (x + 1 < r->width && face != r->face[i + 1]) ||
-           (y > 0 && face != r->face[i - row]) || (y + 1 < r->height && face != r->face[i + row]);
+    return (x >= reach && face != r->face[i - aside]) ||
+           (x + reach < r->width && face != r->face[i + aside]) ||
+           (y >= reach && face != r->face[i - down]) ||
+           (y + reach < r->height && face != r->face[i + down]);
 }
 
 void raster_free(raster *r)

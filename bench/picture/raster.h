@@ -38,8 +38,9 @@ void raster_sheet(raster *r, const raster_camera *camera, const occ_sheet *sheet
 void raster_triangle(raster *r, const raster_camera *camera, const float *const corner[3],
                      uint32_t number);
 
-/// Whether a face ends at a pixel: two pixels wide, one on each side.
-bool raster_is_edge(const raster *r, int x, int y);
+/// Whether a face ends at a pixel, or less than `reach` pixels beside it: on each side of where it
+/// ends so many are edge.
+bool raster_is_edge(const raster *r, int x, int y, int reach);
 
 void raster_free(raster *r);
 

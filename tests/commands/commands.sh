@@ -244,6 +244,9 @@ picture_group()
     expect 2 err 'expected single or fused after --method' picture city.obs --out new.png --method pairwise
     expect 2 err '--vis goes with neither' picture city.obs --out new.png --vis city.vis --explain 1
     expect 2 err '--vis goes with neither' picture city.obs --out new.png --vis city.vis --method single
+    # A file that is not there, or a build without Assimp.
+    expect 1 err 'absent.obj' picture city.obs --out new.png --model absent.obj
+    expect 2 err 'go with --model' picture city.obs --out new.png --bounds
     expect 1 err 'no object 161 among 161' picture city.obs --out new.png --explain 161
     expect 1 err 'no frame 60 among 60' picture city.obs --out new.png --frame 60
     for number in '' x -1 1.5 4294967296; do
