@@ -129,15 +129,14 @@ else
     is '108 145 168' 'the sheet behind the pane'
 fi
 
-# An inner box shines through the surface that it lies behind, and has an outline. Bounds are lines
-# over all.
+# An inner box in the surface, and its outline. Bounds are lines over all.
 # shellcheck disable=SC2086
 status 0 convert slab.obj --out inner.obs --up y $division --frames 8 --sheets 0 --inner 1
 grep -q ' inner=1 ' out || fail "not one inner box"
 # shellcheck disable=SC2086
 draw inner 5 $division
 is '174 153 86' 'the box'
-has 100 3000 '114 92 28' "a box's outline"
+has 300 3000 '113 93 27' "a box's outline"
 green=$("$pixels" drawn.png 592 70 990 555 42 164 120 40 | head -n 1)
 [ "$green" -eq 0 ] || fail "bounds that were not asked for"
 # shellcheck disable=SC2086
@@ -145,3 +144,20 @@ draw inner 5 $division --bounds
 is '174 153 86' 'the box within bounds'
 green=$("$pixels" drawn.png 592 70 990 555 42 164 120 40 | head -n 1)
 [ "$green" -gt 500 ] || fail "no bounds"
+
+# Where the front is a pyramid, the box lies deep behind it and shines through.
+awk '$1 == "v" && ++n > 8 { next } /^o pane/ { exit } { print }
+     /^o slab/ { print "v 0 0 0.62\nf 5 6 9\nf 6 8 9\nf 8 7 9\nf 7 5 9" }' slab.obj | sed '/^f 5 6 8 7$/d' >tent.obj
+for inner in 0 1; do
+    status 0 convert tent.obj --out tent.obs --up y --frames 8 --sheets 0 --inner $inner
+    grep -q " inner=$inner .*path=orbit\$" out || fail "another tent"
+    status 0 picture tent.obs --frame 1 --model tent.obj --up y --out tent$inner.png
+done
+# shellcheck disable=SC2086
+surface=$("$pixels" tent0.png $middle 0 0 0 0 | tail -n 1)
+# shellcheck disable=SC2086
+[ "$("$pixels" tent0.png $middle $surface 2 | head -n 1)" -eq 81 ] || fail "an edge is in the middle"
+# Half and half: the surface's colour, and a box's face that is turned to this side.
+# shellcheck disable=SC2046,SC2086
+"$pixels" tent1.png $middle $(echo $surface | awk '{ print int($1 / 2 + 94), int($2 / 2 + 74), int($3 / 2 + 8) }') 3 >found
+[ "$(head -n 1 found)" -eq 81 ] || fail "behind the pyramid, $surface, the box is $(tail -n 1 found)"
