@@ -116,6 +116,7 @@ cmp -s plain.png drawn.png && fail "the model is not drawn"
 status 0 convert slab.obj --out sheet.obs --up y $division --frames 8 --sheets 1 --inner 0
 # shellcheck disable=SC2086
 draw sheet 5 $division
+# shellcheck disable=SC2086
 if [ "$("$pixels" drawn.png $middle 118 138 164 2 | head -n 1)" -eq 81 ]; then
     has 500 3000 '44 71 108' "a sheet's outline"
     # shellcheck disable=SC2086
