@@ -159,6 +159,7 @@ surface=$("$pixels" tent0.png $middle 0 0 0 0 | tail -n 1)
 # shellcheck disable=SC2086
 [ "$("$pixels" tent0.png $middle $surface 2 | head -n 1)" -eq 81 ] || fail "an edge is in the middle"
 # Half and half: the surface's colour, and a box's face that is turned to this side.
-# shellcheck disable=SC2046,SC2086
-"$pixels" tent1.png $middle $(echo $surface | awk '{ print int($1 / 2 + 94), int($2 / 2 + 74), int($3 / 2 + 8) }') 3 >found
+mixed=$(echo "$surface" | awk '{ print int($1 / 2 + 94), int($2 / 2 + 74), int($3 / 2 + 8) }')
+# shellcheck disable=SC2086
+"$pixels" tent1.png $middle $mixed 3 >found
 [ "$(head -n 1 found)" -eq 81 ] || fail "behind the pyramid, $surface, the box is $(tail -n 1 found)"
