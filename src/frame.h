@@ -72,6 +72,9 @@ bool occ_occluder_sheet_is_large(const occ_frame *frame, const occ_sheet *sheet)
 // Makes the shadow of the occluder in a row and adds it to the set, if it has one.
 occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const occ_projection *seen);
 
+// Puts those of a list that take up much of the screen first, in steps of a factor of four.
+void occ_occluders_sort(const occ_shadow_set *set, uint32_t *list, uint32_t count);
+
 occ_shadow_set occ_occluders_so_far(const occ_frame *frame);
 
 // A box relative to the eye, with its error bound, and a node.

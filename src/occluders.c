@@ -6,6 +6,8 @@
 #include "sheet.h"
 #include "vector.h"
 
+#include <string.h>
+
 _Static_assert(OCC_NO_SLOT == OCC_NOBODY, "an owner's row is what a shadow knows of it");
 
 void occ_occluders_clear(occ_frame *frame)
@@ -114,6 +116,42 @@ occ_result occ_occluders_add(occ_frame *frame, uint32_t row, float key, const oc
     frame->wide.count++;
     frame->sources.count++;
     return OCC_SUCCESS;
+}
+
+#define MOST_SORTED 64u // candidates of a range that are sorted
+
+// How much of the screen an occluder takes up.
+static float shown_area(const occ_shadow_set *set, uint32_t i)
+{
+    const occ_rect_block *block = &set->rects[i / OCC_SHADOW_LANES];
+    float area = 1.0f;
+    for (uint32_t j = 0; j < 2; j++) {
+        float min = block->min[j][i % OCC_SHADOW_LANES], max = block->max[j][i % OCC_SHADOW_LANES];
+        area *= (max < 1.0f ? max : 1.0f) - (min > -1.0f ? min : -1.0f);
+    }
+    return area;
+}
+
+void occ_occluders_sort(const occ_shadow_set *set, uint32_t *list, uint32_t count)
+{
+    uint32_t sorted[MOST_SORTED], placed = 0;
+    float area[MOST_SORTED], least = 0.0f;
+    if (count < 2 || count > MOST_SORTED) return;
+    for (uint32_t i = 0; i < count; i++) {
+        area[i] = shown_area(set, list[i]);
+        least = area[i] > least ? area[i] : least;
+    }
+    uint64_t waiting = ~(uint64_t)0 >> (MOST_SORTED - count);
+    for (uint32_t step = 0; waiting; step++) {
+        least = step < 3 ? least * 0.25f : -INFINITY;
+        for (uint64_t left = waiting; left; left &= left - 1) {
+            uint32_t i = (uint32_t)__builtin_ctzll(left);
+            if (area[i] < least) continue; // a NaN goes first
+            sorted[placed++] = list[i];
+            waiting &= ~((uint64_t)1 << i);
+        }
+    }
+    memcpy(list, sorted, count * sizeof *list);
 }
 
 occ_shadow_set occ_occluders_so_far(const occ_frame *frame)

@@ -5,8 +5,6 @@
 // nearest first. The shadows that touch a node are all that is asked about what is in it.
 #include "frame.h"
 
-#include <string.h>
-
 // Objects of a node that stay open.
 typedef struct open_range {
     uint32_t first, count;
@@ -33,21 +31,36 @@ static occ_projection project(const occ_frame *frame, const occ_relative_box *bo
     return seen;
 }
 
-// Whether the occluders so far hide a box; those that objects [first, first + rows) own do not.
-static bool is_hidden(occ_frame *frame, const occ_relative_box *box, occ_projection *seen,
-                      uint32_t planes, uint32_t first, uint32_t rows)
+// Whether the occluders so far hide a node; those that its objects [first, first + rows) own do
+// not.
+static bool is_hidden(occ_frame *frame, const occ_relative_box *box, uint32_t planes,
+                      uint32_t first, uint32_t rows)
 {
+    occ_projection seen;
     occ_question question = {.box = box,
-                             .seen = seen,
+                             .seen = &seen,
                              .frustum = planes,
                              .first = first,
                              .rows = rows,
                              .key = INFINITY,
                              .fuse = is_fused(frame),
-                             .upright = rows > 0,
+                             .upright = true,
                              .hint = &frame->hint};
     occ_shadow_set set = occ_occluders_so_far(frame);
     return set.count &&
+           frame->lanes->hide(&question, &set, &frame->camera.constants, &frame->camera.screen);
+}
+
+// Whether an occluder that came after the first `asked` hides an occluder, or a node of them.
+// (Alone: what several hide together is rare there, and costs less than to find that out.)
+static bool is_hidden_alone(const occ_frame *frame, const occ_relative_box *box, bool upright,
+                            uint32_t asked)
+{
+    occ_projection seen;
+    occ_question question = {
+        .box = box, .seen = &seen, .asked = asked, .key = INFINITY, .upright = upright};
+    occ_shadow_set set = occ_occluders_so_far(frame);
+    return set.count > asked &&
            frame->lanes->hide(&question, &set, &frame->camera.constants, &frame->camera.screen);
 }
 
@@ -84,43 +97,6 @@ static occ_result add_ranges(occ_frame *frame, const open_range *open, uint32_t 
     return OCC_SUCCESS;
 }
 
-#define MOST_SORTED 64u // candidates of a range that are sorted
-
-// How much of the screen an occluder takes up.
-static float shown_area(const occ_shadow_set *set, uint32_t i)
-{
-    const occ_rect_block *block = &set->rects[i / OCC_SHADOW_LANES];
-    float area = 1.0f;
-    for (uint32_t j = 0; j < 2; j++) {
-        float min = block->min[j][i % OCC_SHADOW_LANES], max = block->max[j][i % OCC_SHADOW_LANES];
-        area *= (max < 1.0f ? max : 1.0f) - (min > -1.0f ? min : -1.0f);
-    }
-    return area;
-}
-
-// Puts those that take up much of the screen first, in steps of a factor of four.
-static void largest_first(const occ_shadow_set *set, uint32_t *list, uint32_t count)
-{
-    uint32_t sorted[MOST_SORTED], placed = 0;
-    float area[MOST_SORTED], least = 0.0f;
-    if (count < 2 || count > MOST_SORTED) return;
-    for (uint32_t i = 0; i < count; i++) {
-        area[i] = shown_area(set, list[i]);
-        least = area[i] > least ? area[i] : least;
-    }
-    uint64_t waiting = ~(uint64_t)0 >> (MOST_SORTED - count);
-    for (uint32_t step = 0; waiting; step++) {
-        least = step < 3 ? least * 0.25f : -INFINITY;
-        for (uint64_t left = waiting; left; left &= left - 1) {
-            uint32_t i = (uint32_t)__builtin_ctzll(left);
-            if (area[i] < least) continue; // a NaN goes first
-            sorted[placed++] = list[i];
-            waiting &= ~((uint64_t)1 << i);
-        }
-    }
-    memcpy(list, sorted, count * sizeof *list);
-}
-
 // Lists the candidates of a range: the occluders that are near enough and touch it.
 static occ_result close_range(occ_frame *frame, float key, const open_range *open)
 {
@@ -141,7 +117,7 @@ static occ_result close_range(occ_frame *frame, float key, const open_range *ope
         frame->stats.walk_hidden += open->count;
         return OCC_SUCCESS;
     }
-    largest_first(&set, list, count);
+    occ_occluders_sort(&set, list, count);
     frame->candidates.count += count;
     return add_ranges(frame, open, begin);
 }
@@ -188,25 +164,13 @@ static occ_result push_occluders(occ_frame *frame, uint32_t planes, uint32_t fir
     return OCC_SUCCESS;
 }
 
-// Whether an occluder that came after the first `asked` hides another one. (Alone: occluders that
-// several hide together are rare, and cost less than to find that out.)
-static bool is_hidden_since(const occ_frame *frame, const occ_relative_box *box, uint32_t asked)
-{
-    occ_projection seen;
-    occ_question question = {
-        .box = box, .seen = &seen, .asked = asked, .key = INFINITY, .upright = false};
-    occ_shadow_set set = occ_occluders_so_far(frame);
-    return set.count > asked &&
-           frame->lanes->hide(&question, &set, &frame->camera.constants, &frame->camera.screen);
-}
-
 static occ_result visit_occluder(occ_frame *frame, const occ_walk_entry *entry)
 {
     if (frame->shadows.count >= frame->knobs.max_occluders) return OCC_SUCCESS;
     frame->stats.occluders_tested++;
     const occ_box *boxes = occ_scene_occluder_boxes(frame->scene);
     occ_relative_box box = occ_frame_relative(frame, &boxes[entry->index]);
-    if (is_hidden_since(frame, &box, entry->what & OCC_WALK_ASKED)) return OCC_SUCCESS;
+    if (is_hidden_alone(frame, &box, false, entry->what & OCC_WALK_ASKED)) return OCC_SUCCESS;
     occ_projection seen = project(frame, &box);
     return occ_occluders_add(frame, entry->index, entry->key, &seen);
 }
@@ -267,9 +231,8 @@ static occ_result visit_node(occ_frame *frame, const occ_walk_entry *entry)
 {
     const occ_node *node = occ_octree_nodes(&frame->scene->object_tree) + entry->index;
     occ_relative_box box = occ_frame_relative_node(frame, node);
-    occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
-    if (is_hidden(frame, &box, &seen, planes, node->first, node->count)) {
+    if (is_hidden(frame, &box, planes, node->first, node->count)) {
         frame->stats.walk_hidden += node->count;
         return OCC_SUCCESS;
     }
@@ -293,10 +256,9 @@ static occ_result visit_free(occ_frame *frame, const occ_walk_entry *entry)
     const occ_octree *tree = &frame->scene->occluder_tree;
     const occ_node *node = occ_octree_nodes(tree) + entry->index;
     occ_relative_box box = occ_frame_relative_node(frame, node);
-    occ_projection seen;
     uint32_t planes = entry->what & OCC_WALK_PLANES;
     frame->stats.nodes_tested++;
-    if (is_hidden(frame, &box, &seen, planes, 0, 0)) return OCC_SUCCESS;
+    if (is_hidden_alone(frame, &box, true, 0)) return OCC_SUCCESS;
     uint32_t first = frame->scene->attached_count + node->first;
     if (push_occluders(frame, planes, first, occ_node_own(tree, node))) {
         return OCC_ERROR_OUT_OF_MEMORY;
